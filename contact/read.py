@@ -1,6 +1,5 @@
 """Readers of the heights of a surface from a measured, stored or synthetic surface or from an array of heights."""
 
-import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,8 +9,11 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.reading.npy import read_header, read_numbers
+from roughfilm.contact.foundation.reading.regular import file_size
 from roughfilm.contact.foundation.units import to_si
-from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.foundation.writing.kinds import as_input
+from roughfilm.contact.surfaces.files import NPY_REMEDY, file_digest, read_surface
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.contact.surfaces.store import is_surface
 from roughfilm.contact.surfaces.surface import Surface
@@ -73,21 +75,16 @@ def read_height_map(
     InputError
         If the file holds no surface, its spacing is missing or given twice, or it has invalid points.
     """
-    suffix = file.suffix.lower()
-    try:
-        exists = file.exists()
-    except OSError as error:
-        raise InputError(f"{file}: cannot be read ({error.strerror}); name a surface") from None
-    if not exists:
-        raise InputError(f"{file}: there is no such file; name a surface")
-    described = suffix == ".toml" or (file.is_file() and is_surface(file))
+    suffix = as_input(file).suffix.lower()
+    file_size(file, "name a surface")
+    described = suffix == ".toml" or is_surface(file)
     if described and spacing is not None:
         raise InputError(f"spacing: {file} says its spacing itself; leave it out")
-    if suffix == ".npy" and spacing is None:
-        raise InputError(f"spacing: {file} holds none; give that of its points, such as 1um")
-    if suffix == ".npy":
+    if suffix == ".npy" and not described:
+        if spacing is None:
+            raise InputError(f"spacing: {file} holds none; give that of its points, such as 1um")
         profile = _read_profile(file)
-        if profile is not None and spacing is not None:
+        if profile is not None:
             return _profile_map(file, *_as_column(profile, spacing), periodic, otherwise)
     if suffix == ".toml":
         surface = make(read_description(file))
@@ -112,15 +109,10 @@ def read_height_map(
 
 def _read_profile(file: Path) -> Array | None:
     """The heights of a profile, shape (n,), (n, 1) or (1, n); None if the file holds something else."""
-    if not file.is_file():
+    header = read_header(file, NPY_REMEDY)
+    if not (len(header.shape) == 1 or (len(header.shape) == 2 and 1 in header.shape)):
         return None
-    try:
-        array = np.load(file, mmap_mode="r", allow_pickle=False)
-    except (OSError, ValueError, EOFError, SyntaxError):
-        return None
-    if array.dtype.kind not in "fiu" or not (array.ndim == 1 or (array.ndim == 2 and 1 in array.shape)):
-        return None
-    return np.array(array, dtype=np.float64)
+    return read_numbers(file, header)
 
 
 def _as_column(heights: Array, spacing: tuple[float, float]) -> tuple[Array, tuple[float, float]]:
@@ -139,7 +131,7 @@ def _profile_map(file: Path, heights: Array, spacing: tuple[float, float], perio
     return HeightMap(
         heights=heights,
         spacing=spacing,
-        source={"file": file.name, "sha256": hashlib.sha256(file.read_bytes()).hexdigest(), "format": "npy"},
+        source={"file": file.name, "sha256": file_digest(file), "format": "npy"},
         warnings=periodicity_warnings(file, surface, otherwise, measured=False) if periodic else (),
     )
 

@@ -1,17 +1,51 @@
-"""Type names of the NumPy arrays that every package uses, and the refusal of masked ones."""
+"""Type names of the NumPy arrays that every package uses, refusal of masked ones, and arithmetic without overflow."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 
 Array = NDArray[np.float64]
 """An array of floating-point numbers, of any shape."""
 
 Mask = NDArray[np.bool_]
 """An array of truth values, of any shape."""
+
+OVERFLOW_REMEDY = "check the units, or make the scene less extreme"
+"""The remedy where numbers overflow though each value of a scene is in its range."""
+
+
+@contextmanager
+def finite_arithmetic(place: str) -> Iterator[None]:
+    """Raise an error, in one line, where an operation of the block overflows, divides by zero or is undefined.
+
+    Parameters
+    ----------
+    place : what computes in the block, such as the name of a model, for the message.
+
+    Raises
+    ------
+    ConvergenceError
+        In place of any ArithmeticError of Python and of NumPy, which would warn and continue with infinite numbers.
+
+    Examples
+    --------
+    >>> with finite_arithmetic("film"):
+    ...     np.array([1e300]) * 1e300
+    Traceback (most recent call last):
+    ...
+    roughfilm.contact.foundation.errors.ConvergenceError: film: its numbers overflow (overflow encountered in multiply)\
+; check the units, or make the scene less extreme
+    """
+    try:
+        with np.errstate(over="raise", divide="raise", invalid="raise"):
+            yield
+    except ArithmeticError as error:
+        raise ConvergenceError(f"{place}: its numbers overflow ({error}); {OVERFLOW_REMEDY}") from error
 
 
 def unmasked(place: str, values: ArrayLike) -> NDArray[Any]:

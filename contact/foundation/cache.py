@@ -16,6 +16,7 @@ from functools import cache
 from pathlib import Path
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.writing.scratch import sweep
 
 VARIABLE = "ROUGHFILM_CACHE"
 """Environment variable with the directory."""
@@ -29,11 +30,11 @@ FOLDERS = ("tables", "leakage")
 ENTRY = re.compile(r"[0-9a-f]{64}\.h5")
 """Names of entries: the digest of what determines them."""
 
-REMAINS = re.compile(r"\.?[0-9a-f]{64}(-\w+\.h5|\.lock)")
-"""Names of locks, and of temporary files that a killed process leaves."""
+LOCK = re.compile(r"[0-9a-f]{64}\.lock")
+"""Names of locks, which a killed process leaves."""
 
-REMAINS_S = 86_400.0
-"""Age above which locks and temporary files are removed, s."""
+LOCK_S = 86_400.0
+"""Age above which locks are removed, s."""
 
 WAIT_S = 0.2
 """Time between two attempts to take the lock of an entry, s."""
@@ -103,7 +104,7 @@ def entries() -> list[Entry]:
 def trim(limit: int = LIMIT_BYTES) -> list[Entry]:
     """Remove entries, longest unused first, until their size is at most a limit, bytes; return those removed.
 
-    Locks and temporary files that nobody has used for a day are removed too.
+    Locks that nobody has used for a day, and what killed processes left, are removed too.
 
     Raises
     ------
@@ -121,10 +122,12 @@ def trim(limit: int = LIMIT_BYTES) -> list[Entry]:
             raise InputError(f"{entry.path}: cannot be removed ({error.strerror}); change its permissions") from error
         left -= entry.size
         removed.append(entry)
-    for path in _files(REMAINS):
+    for path in _files(LOCK):
         with suppress(OSError):
-            if time.time() - path.stat().st_mtime > REMAINS_S:
+            if time.time() - path.stat().st_mtime > LOCK_S:
                 path.unlink()
+    for folder in FOLDERS:
+        sweep(user_directory() / folder)
     return removed
 
 

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from functools import cache, cached_property, partial, update_wrapper
 from typing import Any
 
+from roughfilm.contact.foundation.cache import warn
 from roughfilm.contact.foundation.timing import one_time
 
 COMPILATION_S = "10 to 30"
@@ -46,9 +47,21 @@ class Loop:
             if isinstance(called := names.get(name), Loop):
                 names[name] = called._dispatcher
         try:
-            return _njit()(**self._options)(self._loop)
+            dispatcher = _njit()(**self._options)(self._loop)
         except RuntimeError:  # no directory for the cache can be written
             return _njit()(**{**self._options, "cache": False})(self._loop)
+        dispatcher._cache.save_overload = partial(_keep, dispatcher._cache.save_overload)
+        return dispatcher
+
+
+def _keep(save: Callable[..., None], *compilation: Any) -> None:
+    """Keep a compiled loop for later runs, or warn once that the disk has no space for it."""
+    try:
+        save(*compilation)
+    except OSError as error:
+        warn(
+            f"compiled kernels: cannot be written ({error.strerror or error}); set NUMBA_CACHE_DIR to another directory"
+        )
 
 
 compiled: Any = partial(Loop, cache=True, _nrt=False)

@@ -1,5 +1,6 @@
 """Building blocks of tables in TOML files: numbers with units, and tables that refuse unknown keys."""
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,6 +10,7 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Get
 from pydantic_core import core_schema
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.ranges import RANGES
 from roughfilm.contact.foundation.units import to_si, with_unit
 
 REMEDY = "make a changed scene with rf.replace, such as rf.replace(scene, 'geometry.depth', '7.5 um')"
@@ -38,21 +40,35 @@ class Part(BaseModel):
 
 
 def _positive(value: float) -> float:
-    if not 0 < value < float("inf"):
-        raise ValueError(f"got {value!r}; it must be above zero and finite")
+    if not value > 0:
+        raise ValueError(f"got {value!r}; it must be above zero")
     return value
 
 
 def plain_number(value: object) -> float:
-    """The number as a float, also that of a percentage such as "60 %"; ValueError for anything else."""
+    """The dimensionless number as a float, also of a percentage such as "60 %".
+
+    Raises
+    ------
+    ValueError
+        For anything else, and for a number outside of the range of dimensionless numbers.
+    """
+    number = si_number(value)
+    if number not in RANGES["1"]:
+        raise ValueError(f"got {value!r:.60}; a dimensionless number must be 0 or {RANGES['1']} in size")
+    return number
+
+
+def si_number(value: object) -> float:
+    """The number as a float, which may be infinite or not a number; ValueError for anything else."""
     if isinstance(value, str) and value.rstrip().endswith("%"):
         return to_si(value, "%") / 100
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError(f"got {value!r}; write a plain number, without unit or quotes{_unquoted(value)}")
+        raise ValueError(f"got {value!r:.60}; write a plain number, without unit or quotes{_unquoted(value)}")
     try:
         return float(value)
     except OverflowError:
-        raise ValueError("got a number beyond 1e308; write a smaller one") from None
+        return math.inf if value > 0 else -math.inf
 
 
 def _unquoted(value: object) -> str:
@@ -86,7 +102,7 @@ class InUnit:
     def _number(self, text: object) -> float:
         number = to_si(text, self.base)
         if number <= 0 and not self.any_sign:
-            raise ValueError(f"got {text!r}; it must be above zero")
+            raise ValueError(f"got {text!r:.60}; it must be above zero")
         return number
 
 

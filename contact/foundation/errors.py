@@ -3,7 +3,14 @@
 Each message is one line that names the place, the value, the allowed range and the remedy.
 """
 
+import errno
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from enum import StrEnum
+from pathlib import Path
+
+from roughfilm.contact.foundation.brief import short_message
 
 
 class Outcome(StrEnum):
@@ -35,6 +42,9 @@ class InputError(ValueError):
     scene.kind: got 'pocketful'; it must b
     """
 
+    def __init__(self, message: str) -> None:
+        super().__init__(short_message(message))
+
 
 class ConvergenceError(RuntimeError):
     """A solver stopped above its tolerance, or its fields are invalid.
@@ -52,7 +62,7 @@ class ConvergenceError(RuntimeError):
     """
 
     def __init__(self, message: str, *, outcome: Outcome = Outcome.FAILED, iterations: int | None = None) -> None:
-        super().__init__(message)
+        super().__init__(short_message(message))
         self.outcome = outcome
         self.iterations = iterations
 
@@ -65,3 +75,39 @@ class UnavailableError(ImportError):
     >>> str(UnavailableError("simpleFoam: not found; install OpenFOAM"))
     'simpleFoam: not found; install OpenFOAM'
     """
+
+    def __init__(self, message: str) -> None:
+        super().__init__(short_message(message))
+
+
+BESIDE = re.compile(r"(?<=/)\.roughfilm-[0-9a-f]{8}-[0-9a-f]{8}/")
+"""The hidden scratch directory in the path of a file that is not at its final place yet."""
+
+REMEDIES = {
+    errno.ENOSPC: "free some space there or ",
+    errno.EDQUOT: "free some of your quota there or ",
+    errno.EFBIG: "raise the limit of the size of a file (ulimit -f) or ",
+}
+"""Beginnings of remedies by the number of an error of the system."""
+
+
+def unwritable(
+    place: Path | str, error: OSError, *, done: str = "written", remedy: str = "choose another place"
+) -> InputError:
+    """The error for a place that the system refused to write, or what ``done`` says, with the reason and the remedy.
+
+    >>> str(unwritable("r.h5", OSError(errno.ENOSPC, "No space left on device")))
+    'r.h5: cannot be written (No space left on device); free some space there or choose another place'
+    """
+    first = REMEDIES.get(error.errno or 0, "")
+    final = BESIDE.sub("", str(place))
+    return InputError(f"{final}: cannot be {done} ({error.strerror or error}); {first}{remedy}")
+
+
+@contextmanager
+def writing(place: Path | str, *, remedy: str = "choose another place") -> Iterator[None]:
+    """Turn each error of the system in the block into the one of ``unwritable`` for a place."""
+    try:
+        yield
+    except OSError as error:
+        raise unwritable(place, error, remedy=remedy) from error

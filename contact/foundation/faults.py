@@ -150,6 +150,7 @@ def in_lines(faults: Sequence[Fault], root: str, file: EntriesFile | None = None
     lines = [None if file is None else file.line(fault.location) for fault in faults]
     in_order = sorted(zip(lines, faults, strict=True), key=lambda one: one[0] or 0)
     shown = [f"{_place(fault.location, root, file, line)}: {fault.text}" for line, fault in in_order]
+    shown = [line.replace("\n", r"\n") for line in shown]  # of a name
     others = len(shown) - MAX_FAULTS
     return "\n".join(shown[:MAX_FAULTS] + ([f"{root}: {others} more faults"] if others > 0 else []))
 

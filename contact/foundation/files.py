@@ -1,72 +1,75 @@
-"""Files written completely or not at all, by renaming a temporary file, and locks that end with their process."""
+"""Files written completely or not at all, which replace only their own kind, and locks that end with their process."""
 
 import fcntl
 import json
 import os
-import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import InputError, unwritable
+from roughfilm.contact.foundation.writing.kinds import Kind, entries_from, refuse_to_replace, resolved
+from roughfilm.contact.foundation.writing.scratch import is_at, scratch_directory
 
 
 @contextmanager
-def replacing(path: Path) -> Iterator[Path]:
-    """Yield a temporary path beside ``path``, which is renamed to ``path`` on success and removed on failure.
+def replacing(path: Path, kind: Kind, *, overwrite: bool = False) -> Iterator[Path]:
+    """Yield a temporary path, which is renamed to ``path`` on success and removed on failure.
 
     If ``path`` is a symbolic link, the file that it points to is replaced.
 
     A reader sees the old file or the complete new one, even if the writer is killed.
 
+    Parameters
+    ----------
+    path : the file.
+    kind : kind of the file; an existing file of another kind is not replaced.
+    overwrite : whether an existing file of another kind is replaced too.
+
     Raises
     ------
     InputError
-        If the directory cannot be made or written, or ``path`` is a directory, a device or a pipe.
+        If the directory cannot be made or written, or ``path`` is an input, a file of another kind, a directory, a
+        device or a pipe.
 
     Examples
     --------
     >>> import tempfile
+    >>> from roughfilm.contact.foundation.writing.kinds import beginning_with
     >>> target = Path(tempfile.mkdtemp()) / "table.txt"
-    >>> with replacing(target) as scratch:
+    >>> with replacing(target, beginning_with("a table", b"done")) as scratch:
     ...     _ = scratch.write_text("done")
     >>> target.read_text()
     'done'
     """
-    scratch = None
     try:
-        path = _resolved(Path(path))
-        if path.is_dir():
-            raise InputError(f"{path}: is a directory; name a file")
-        if path.exists() and not path.is_file():
-            raise InputError(f"{path}: is a device or a pipe, which cannot be replaced whole; name a file")
+        path = resolved(Path(path))
+        refuse_to_replace(path, kind, overwrite=overwrite)
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
-        os.close(handle)
-        scratch = Path(name)
-        yield scratch
-        scratch.chmod(0o666 & ~_umask())
-        scratch.replace(path)
+        with scratch_directory(beside=path) as place:
+            scratch = place / path.name
+            yield scratch
+            refuse_to_replace(path, kind, overwrite=overwrite)
+            scratch.chmod(0o666 & ~_umask())
+            scratch.replace(path)
     except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror or error}); choose another place") from error
-    finally:
-        if scratch is not None:
-            scratch.unlink(missing_ok=True)
+        raise unwritable(path, error) from error
 
 
-def write_json(entries: Mapping[str, Any], path: Path) -> None:
-    """Write entries as a JSON file, completely or not at all.
+def write_json(entries: Mapping[str, Any], path: Path, *, overwrite: bool = False) -> None:
+    """Write entries as a JSON file, completely or not at all; an existing file must begin with the same key.
 
     Raises
     ------
     InputError
-        If the file cannot be written.
+        If the file cannot be written, or holds something else and ``overwrite`` is not set.
     ValueError
         If a number is infinite or NaN, which JSON does not have.
     """
-    with replacing(path) as scratch:
-        scratch.write_text(json.dumps(entries, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    text = json.dumps(entries, indent=1, allow_nan=False) + "\n"
+    with replacing(path, entries_from(next(iter(entries))), overwrite=overwrite) as scratch:
+        scratch.write_text(text, encoding="utf-8")
 
 
 @contextmanager
@@ -88,13 +91,15 @@ def locked(lock: Path, message: str) -> Iterator[None]:
             lock.parent.mkdir(parents=True, exist_ok=True)
             file = lock.open("a+", encoding="utf-8")
         except OSError as error:
-            raise InputError(f"{lock.parent}: cannot be written ({error.strerror}); choose another place") from error
+            raise unwritable(lock.parent, error) from error
         with file:
             try:
-                fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except OSError:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
                 file.seek(0)
                 raise InputError(message.replace("{process}", file.read().strip() or "unknown")) from None
+            except OSError as error:  # a file system without locks
+                raise unwritable(lock, error, done="locked") from error
             if not is_at(file.fileno(), lock):  # removed by the last holder since it was opened
                 continue
             file.truncate(0)
@@ -105,21 +110,6 @@ def locked(lock: Path, message: str) -> Iterator[None]:
             finally:
                 lock.unlink(missing_ok=True)
             return
-
-
-def is_at(descriptor: int, path: Path) -> bool:
-    """Whether an open file is the one at a path."""
-    try:
-        return os.path.samestat(os.fstat(descriptor), path.stat())
-    except FileNotFoundError:
-        return False
-
-
-def _resolved(path: Path) -> Path:
-    try:
-        return path.expanduser().resolve()
-    except RuntimeError as error:  # raised by pathlib for an unknown home directory or circular links
-        raise InputError(f"{path}: leads nowhere ({error}); choose another place") from error
 
 
 def _umask() -> int:

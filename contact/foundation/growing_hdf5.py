@@ -12,29 +12,31 @@ header is on disk. If a writer was killed meanwhile, the next reader or writer r
 
 import fcntl
 import hashlib
+import io
 import json
 import os
 import zlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO, TypeVar
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 import numpy as np
+from pydantic import NonNegativeInt
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.checked_hdf5 import CHUNK_BYTES, HEADER_BYTES
-from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.files import is_at, replacing
+from roughfilm.contact.foundation.checked_hdf5 import CHUNK_BYTES, HEADER_BYTES, marked
+from roughfilm.contact.foundation.errors import InputError, unwritable
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.reading.json_entries import from_json
+from roughfilm.contact.foundation.reading.regular import holds_data
+from roughfilm.contact.foundation.writing.scratch import is_at, scratch_directory
 
 if TYPE_CHECKING:
     import h5py
 
 T = TypeVar("T")
-
-SCRATCH = "undo-new"
-"""Part of the name of an undo file that is not complete yet, as long as that of other temporary files."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,24 @@ class Index:
     blocks: dict[str, Block]
     end: int
     rest: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class IndexEntries:
+    """The text of an index: offset, length and checksum of each block, and ``end`` and ``rest`` as in `Index`."""
+
+    blocks: Mapping[str, tuple[NonNegativeInt, NonNegativeInt, int]]
+    end: NonNegativeInt
+    rest: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class UndoEntries:
+    """The first line of an undo file: inode and size of its file, and the places of the pieces that follow, bytes."""
+
+    inode: int
+    size: NonNegativeInt
+    places: Sequence[tuple[NonNegativeInt, NonNegativeInt]]
 
 
 class Writer:
@@ -110,7 +130,7 @@ def grow(path: Path, mark: bytes, remedy: str, fill: Callable[[Writer], None]) -
     """
     _restore(path)
     if not path.exists() or path.stat().st_size == 0:
-        with replacing(path) as scratch:
+        with replacing(path, marked(mark)) as scratch:
             _write(scratch, mark, {}, "w", fill)
         return
     try:
@@ -120,7 +140,7 @@ def grow(path: Path, mark: bytes, remedy: str, fill: Callable[[Writer], None]) -
         with _undone_on_failure(path, index):
             _write(path, mark, dict(index.blocks), "r+", fill)
     except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror or error}); choose another place") from error
+        raise unwritable(path, error) from error
 
 
 def read(
@@ -176,10 +196,7 @@ def undo_file(path: Path) -> Path:
 
 def _write(path: Path, mark: bytes, blocks: dict[str, Block], mode: str, fill: Callable[[Writer], None]) -> None:
     """Write into the HDF5 data, then the index, then the header."""
-    import h5py  # slow to import
-
-    options = {"userblock_size": HEADER_BYTES} if mode == "w" else {}
-    with h5py.File(path, mode, locking=False, **options) as file:
+    with _hdf5(path, mode) as file:
         fill(Writer(file, blocks))
     with path.open("r+b") as raw:
         end = raw.seek(0, os.SEEK_END)
@@ -196,6 +213,49 @@ def _write(path: Path, mark: bytes, blocks: dict[str, Block], mode: str, fill: C
         os.fsync(raw.fileno())
 
 
+class _Disk(io.FileIO):
+    """A file that keeps the first error of writing and leaves out all that is written after it.
+
+    HDF5 raises an error of writing again wherever it closes an object, and can crash at the end of the process.
+    """
+
+    error: OSError | None = None
+
+    def write(self, data: Any) -> int:
+        """Write all bytes, unless the disk has refused some before."""
+        left = memoryview(data).cast("B")
+        size = left.nbytes
+        try:
+            while left and self.error is None:
+                left = left[super().write(left) :]
+        except OSError as error:
+            self.error = error
+        return size
+
+    def truncate(self, size: int | None = None) -> int:
+        """Set the size of the file, unless the disk has refused bytes before."""
+        try:
+            return super().truncate(size) if self.error is None else 0
+        except OSError as error:
+            self.error = error
+            return 0
+
+
+@contextmanager
+def _hdf5(path: Path, mode: str) -> "Iterator[h5py.File]":
+    """An open HDF5 file, new ("w") or as it is ("r+"); OSError at the end if the disk refused to write."""
+    import h5py  # slow to import
+
+    options = {"userblock_size": HEADER_BYTES} if mode == "w" else {}
+    with _Disk(path, f"{mode}+" if mode == "w" else mode) as disk:
+        try:
+            with h5py.File(disk, mode, locking=False, **options) as file:
+                yield file
+        finally:
+            if disk.error is not None:
+                raise disk.error
+
+
 def _index(raw: BinaryIO, path: Path, mark: bytes, remedy: str) -> Index:
     """The index of a file, after a check of its digest."""
     raw.seek(0)
@@ -205,9 +265,13 @@ def _index(raw: BinaryIO, path: Path, mark: bytes, remedy: str) -> Index:
         raw.seek(int(place))
         text = raw.read()
         if header.startswith(mark) and hashlib.sha256(text).hexdigest() == digest:
-            entries = json.loads(text)
-            blocks = {name: Block(*block) for name, block in entries["blocks"].items()}
-            return Index(blocks, entries["end"], entries["rest"])
+            entries = from_json(text, IndexEntries)
+            blocks = {name: Block(*block) for name, block in entries.blocks.items()}
+            ordered = sorted(blocks.values(), key=lambda block: block.offset)
+            ends = [HEADER_BYTES, *(block.offset + block.length for block in ordered)]
+            starts = [*(block.offset for block in ordered), int(place)]
+            if entries.end == int(place) and all(end <= start for end, start in zip(ends, starts, strict=True)):
+                return Index(blocks, entries.end, entries.rest)
     except ValueError:
         pass
     raise _damaged(path, remedy)
@@ -258,8 +322,7 @@ def _undone_on_failure(path: Path, index: Index) -> Iterator[None]:
 
     The undo file is locked as long as this process writes.
     """
-    undo, scratch = undo_file(path), path.with_name(f".{path.stem}-{SCRATCH}{path.suffix}")
-    with path.open("rb") as raw, scratch.open("w+b") as guard:
+    with scratch_directory(beside=path) as place, path.open("rb") as raw, (place / "undo").open("w+b") as guard:
         fcntl.lockf(guard, fcntl.LOCK_EX)
         size = raw.seek(0, os.SEEK_END)
         places = [(0, HEADER_BYTES), *_gaps(index.blocks.values(), index.end), (index.end, size)]
@@ -267,7 +330,7 @@ def _undone_on_failure(path: Path, index: Index) -> Iterator[None]:
         guard.writelines(_piece(raw, low, high) for low, high in places)
         guard.flush()
         os.fsync(guard.fileno())
-        scratch.replace(undo)
+        undo = Path(guard.name).replace(undo_file(path))
         try:
             yield
         except BaseException:
@@ -281,6 +344,7 @@ def _restore(path: Path) -> None:
     """Wait until no other process writes into the file, and restore it if the last one was killed meanwhile."""
     undo = undo_file(path)
     while undo.exists():
+        holds_data(undo, "remove it")  # refuses a pipe; the file may be gone by now
         try:
             with undo.open("r+b") as guard:
                 fcntl.lockf(guard, fcntl.LOCK_EX)
@@ -297,14 +361,23 @@ def _restore(path: Path) -> None:
 
 def _undo(guard: BinaryIO, path: Path) -> None:
     """Write what the undo file holds back into its file, unless that is another one by now."""
+    length = guard.seek(0, os.SEEK_END)
     guard.seek(0)
-    entries = json.loads(guard.readline())
-    if not path.exists() or path.stat().st_ino != entries["inode"]:
+    try:
+        entries = from_json(guard.readline(), UndoEntries)
+        pieces = [high - low for low, high in entries.places]
+        if min(pieces, default=0) < 0 or guard.tell() + sum(pieces) != length:
+            raise ValueError("it is not complete")
+    except ValueError as error:
+        raise InputError(
+            f"{undo_file(path)}: is damaged ({error}); remove it, and {path} if that is damaged"
+        ) from error
+    if not path.exists() or path.stat().st_ino != entries.inode:
         return
     with path.open("r+b") as raw:
-        for low, high in entries["places"]:
+        raw.truncate(entries.size)  # first, since the disk may be full
+        for low, high in entries.places:
             raw.seek(low)
             raw.write(guard.read(high - low))
-        raw.truncate(entries["size"])
         raw.flush()
         os.fsync(raw.fileno())

@@ -33,16 +33,15 @@ class Inputs:
         text = json.dumps([self.heights.shape, self.spacing, self.settings], sort_keys=True, allow_nan=False)
         return hashlib.sha256(text.encode() + np.ascontiguousarray(self.heights).tobytes()).hexdigest()
 
-    def difference(self, settings: str) -> str:
+    def difference(self, stored: Mapping[str, Any]) -> str:
         """The first difference from the inputs of a file, in words that end a sentence.
 
         Parameters
         ----------
-        settings : the settings in the file, as JSON text.
+        stored : the settings in the file.
         """
-        stored = json.loads(settings)
         for name in sorted(stored.keys() | self.settings.keys()):
             own, other = self.settings.get(name), stored.get(name)
             if own != other:
-                return "of another version of roughfilm" if name == "code" else f"with {name} {other}, not {own}"
+                return "of another version of roughfilm" if name == "code" else f"with {name} {other!s:.60}, not {own}"
         return "of another surface"

@@ -2,9 +2,11 @@
 
 import os
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
+from contextvars import copy_context
 from itertools import pairwise
+from typing import Any
 
 from roughfilm.contact.foundation.errors import InputError
 
@@ -23,10 +25,18 @@ def checked_threads(threads: int | None) -> int:
     return threads
 
 
+class _Pool(ThreadPoolExecutor):
+    """Threads that work in the context of the caller, in which NumPy keeps what it does about an overflow."""
+
+    def submit(self, work: Callable[..., Any], /, *arguments: Any, **options: Any) -> Future[Any]:
+        """Call ``work`` in one of the threads, in a copy of the current context."""
+        return super().submit(copy_context().run, work, *arguments, **options)
+
+
 @contextmanager
 def workers(threads: int) -> Iterator[ThreadPoolExecutor]:
     """A pool of threads for independent tasks; at the end of the block, tasks that have not started are cancelled."""
-    pool = ThreadPoolExecutor(threads)
+    pool = _Pool(threads)
     try:
         yield pool
     finally:
@@ -38,7 +48,7 @@ class Team:
 
     def __init__(self, members: int) -> None:
         self.members = members
-        self._others = ThreadPoolExecutor(members - 1) if members > 1 else None
+        self._others = _Pool(members - 1) if members > 1 else None
 
     def ranges(self, count: int, unit: int = 1) -> list[tuple[int, int]]:
         """The range [low, high) of indices below ``count`` for each member; each low is a multiple of ``unit``."""

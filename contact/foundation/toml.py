@@ -8,13 +8,24 @@ from pathlib import Path
 from typing import Any
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.reading.regular import opened, read_text
 from roughfilm.contact.foundation.units import in_si
+from roughfilm.contact.foundation.writing.kinds import SIGNATURE, as_input
 
 MAX_BYTES = 1_000_000
 """Largest size of a file that is read, bytes."""
 
+USER_BLOCK_BYTES = 512
+"""Size of the header that an HDF5 file of this library has before its signature, bytes."""
+
+MAX_LEVELS = 20
+"""Largest number of levels of tables and lists in a file that is read."""
+
 _AT = re.compile(r"\(at line (\d+), column \d+\)")
 _UNQUOTED = re.compile(r"""\s*([\w.-]+)\s*=\s*([^"'\[{#=\s][^#"'=]*?)\s*(?:#.*)?""")
+_DEEP_KEY = re.compile(rf"""(?<![\w-])(?:[\w"'-]++[ \t]*+\.[ \t]*+){{{2 * MAX_LEVELS}}}""")
+"""A dotted key that takes long to read and is nested too deeply."""
+
 _CURLED = "“”„«»‘’‚"
 
 
@@ -35,25 +46,35 @@ def read_toml(path: Path, example: str) -> dict[str, Any]:
     Raises
     ------
     InputError
-        If the file cannot be read, is larger than 1 MB or is not TOML.
+        If the file cannot be read, is larger than 1 MB, is not TOML, or is nested too deeply.
     """
     path = Path(path)
+    with opened(as_input(path), "name a TOML file") as file:
+        if SIGNATURE in file.read(USER_BLOCK_BYTES + len(SIGNATURE)):
+            raise InputError(f"{path}: is a result, not a scene; name a TOML file")
+    text = read_text(as_input(path), MAX_BYTES, "name a TOML file")
+    if _DEEP_KEY.search(text):
+        raise InputError(f"{path}: a key has too many parts; at most {MAX_LEVELS} levels are read")
     try:
-        if not path.is_file():
-            raise InputError(f"{path}: {'is no' if path.exists() else 'no such'} file; name a TOML file")
-        if path.stat().st_size > MAX_BYTES:
-            raise InputError(f"{path}: larger than {MAX_BYTES} bytes; write a short TOML file")
-        text = path.read_text(encoding="utf-8-sig")
-        return tomllib.loads(text)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        raise InputError(f"{path}:{line}: byte {error.start} is not UTF-8; save the file as UTF-8 text") from error
-    except InputError:
-        raise
+        entries = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise InputError(_not_toml(path, text, str(error).splitlines()[0], example)) from error
+    _refuse_extremes(path, entries)
+    return entries
+
+
+def _refuse_extremes(path: Path, entries: dict[str, Any]) -> None:
+    """Raise InputError for entries nested too deeply for others to walk through, and for integers beyond 64 bits."""
+    level: list[Any] = [entries]
+    for _ in range(MAX_LEVELS):
+        inner = [part for part in level if isinstance(part, dict | list)]
+        level = [value for part in inner for value in (part.values() if isinstance(part, dict) else part)]
+        if any(type(value) is int and value.bit_length() > 64 for value in level):
+            raise InputError(
+                f"{path}: holds an integer beyond 64 bits, which TOML does not have; write a number with e"
+            )
+    if level:
+        raise InputError(f"{path}: its tables are nested too deeply; at most {MAX_LEVELS} levels are read")
 
 
 def _not_toml(path: Path, text: str, reason: str, example: str) -> str:

@@ -3,6 +3,7 @@
 import difflib
 import math
 import re
+import sys
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,14 +11,16 @@ from functools import cache
 from numbers import Integral, Real
 from typing import TYPE_CHECKING, Any
 
+from roughfilm.contact.foundation.ranges import RANGES
 from roughfilm.contact.foundation.rounding import with_error
 
 if TYPE_CHECKING:
     import pint
 
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?)\s*(.*?)\s*")
+_NONZERO = re.compile(r"[-+0.]*[1-9]")
 _COMMA = re.compile(r"\s*([-+]?\d[\d.]*,[\d.,]*\d(?:[eE][-+]?\d{1,3})?)\s*(.*?)\s*")
-_POWER_OF_TEN = re.compile(r"([x×*·]\s*10)?\s*(?:\^|\*\*)\s*([-+]?\d{1,3})\s*(.*)")
+_POWER_OF_TEN = re.compile(r"([x×*·]\s*10)?\s*(?:\^|\*\*)\s*([-+]?\d{1,3}+)(?!\s*[*^])\s*(.*)")
 _UNIT = re.compile(r"(?:[A-Za-z%*/ ()]|\^-?\d(?!\d)){1,40}")
 
 
@@ -278,8 +281,8 @@ def to_si(text: object, base: str) -> float:
     Raises
     ------
     ValueError
-        If the text has another form, the unit is unknown or has another dimension, or the number is not finite. The
-        message gives the input and a correct way to write it, which keeps its value.
+        If the text has another form, the unit is unknown or has another dimension, or the number is not in the range of
+        :data:`roughfilm.contact.foundation.ranges.RANGES`. The message gives the input and the remedy.
 
     Examples
     --------
@@ -298,8 +301,13 @@ def to_si(text: object, base: str) -> float:
     ...
     ValueError: got '7,5 um', with a comma; write '7.5 um'
     """
+    return _in_range(converted(text, base), text, base)
+
+
+def converted(text: object, base: str) -> float:
+    """The number that :func:`to_si` gives, which may be out of range; ValueError for a text of another form."""
     if isinstance(text, SiNumber | SiInteger):
-        return _finite(float(text) if abs(text) < math.inf else math.inf, text)
+        return _as_float(text)
     if isinstance(text, bool) or not isinstance(text, str | int | float):
         raise ValueError(f"got {_brief(text)}; write a number and a unit, {_example(base)}")
     if isinstance(text, int | float):
@@ -315,7 +323,9 @@ def to_si(text: object, base: str) -> float:
         value = float(number) * factor
     else:
         value = float(number) * whole if times else float(number) / whole
-    return _finite(value + _ZERO_CELSIUS if unit == _CELSIUS else value, text)
+    value += _ZERO_CELSIUS if unit == _CELSIUS else 0.0
+    # A number that rounds to zero is as small as one can be, and not the zero that a key may allow.
+    return value if value or not _NONZERO.match(number) else sys.float_info.min
 
 
 def rotational_speed(text: object) -> float | None:
@@ -331,7 +341,7 @@ def rotational_speed(text: object) -> float | None:
     True
     """
     try:
-        value = to_si(text, "rad/s") if isinstance(text, str) else None
+        value = converted(text, "rad/s") if isinstance(text, str) else None
     except ValueError:
         return None
     if value is None:
@@ -355,7 +365,7 @@ def dynamic_viscosity(viscosity: object, density: object) -> object:
     ('0.04002 Pa*s', '10 mPa*s')
     """
     try:
-        kinematic = to_si(viscosity, "m^2/s") if isinstance(viscosity, str) else None
+        kinematic = converted(viscosity, "m^2/s") if isinstance(viscosity, str) else None
         return viscosity if kinematic is None else with_unit(kinematic * to_si(density, "kg/m^3"), "Pa*s")
     except ValueError:
         return viscosity
@@ -445,10 +455,23 @@ def _either(units: Sequence[str]) -> str:
     return f"{', '.join(others)} or {last}" if others else last
 
 
-def _finite(value: float, text: object) -> float:
-    if not math.isfinite(value):
+def _as_float(number: float) -> float:
+    """The nearest float; infinite for a whole number beyond all floats."""
+    try:
+        return float(number)
+    except OverflowError:
+        return math.inf if number > 0 else -math.inf
+
+
+def _in_range(value: float, text: object, base: str) -> float:
+    """The number if it is in the range of its unit; ValueError otherwise."""
+    allowed = RANGES.get(base)
+    if math.isfinite(value) and (allowed is None or value in allowed):
+        return value
+    if allowed is None or math.isnan(value):
         raise ValueError(f"got {_brief(text)}, which is not finite; write a finite number")
-    return value
+    quantity = _MEANINGS[base][0]
+    raise ValueError(f"got {_brief(text)}; {quantity} must be {allowed} {base}, check the unit")
 
 
 def is_unit(word: str) -> bool:

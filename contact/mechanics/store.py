@@ -13,12 +13,15 @@ from typing import Any, TypeVar
 
 import h5py
 import numpy as np
+from pydantic import PositiveFloat
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.checked_hdf5 import HEADER_BYTES, has_mark
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.growing_hdf5 import Writer, grow, read
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.reading.hdf5_content import Content, Json, Numbers, Text
+from roughfilm.contact.foundation.reading.regular import holds_data, opened
 from roughfilm.contact.mechanics.contact import Contact
 
 T = TypeVar("T")
@@ -58,6 +61,32 @@ NUMBERS = tuple(entry.name for entry in fields(Row))
 UNITS = {"load": "Pa", "mean_gap": "m", "approach": "m", "pressure_max": "Pa", "cpu_s": "s"}
 """Units of the numbers of a row; all others are dimensionless."""
 
+ALWAYS = ("load", "area_fraction", "plastic_fraction", "cpu_s")
+"""The numbers of a row that every model gives."""
+
+MAP = ("nx", "ny")
+SURFACE = {"heights": Numbers(shape=MAP), "@spacing": Numbers(shape=(2,))}
+FIELDS = {
+    "/pressure": Numbers(shape=MAP),
+    "/gap": Numbers(shape=MAP),
+    "/plastic_displacement": Numbers(shape=MAP),
+    "@hardness": Numbers(infinite=True),
+    "@approach": Numbers(),
+    "@complementarity": Numbers(),
+    "@iterations": Numbers(),
+}
+"""What a file holds for its surface, and for a load with fields."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """The settings of a series that its readers need: model, boundary, E* and H, Pa, None without plasticity."""
+
+    model: str
+    boundary: str
+    composite_modulus: PositiveFloat
+    hardness: PositiveFloat | None
+
 
 def row_of(contact: Contact, cpu_s: float) -> Row:
     """The numbers of a contact whose solution took the CPU time ``cpu_s``, s."""
@@ -92,7 +121,7 @@ def add(path: Path, inputs: Inputs, contacts: Sequence[tuple[Row, Contact | None
 
     def fill(writer: Writer) -> None:
         if "series" in writer.file:
-            before = _rows(writer.file, path, inputs)
+            before = _rows(Content(writer.file, path, REMEDY), inputs)
         else:
             before = {}
             _begin(writer, inputs)
@@ -105,7 +134,7 @@ def add(path: Path, inputs: Inputs, contacts: Sequence[tuple[Row, Contact | None
                 writer.remove(name)
             writer.rename(_new(name), name)
 
-    if _holds_data(path):
+    if holds_data(path, REMEDY):
         _refuse_other(path)
     grow(path, MARK, REMEDY, fill)
 
@@ -133,24 +162,17 @@ def finished(path: Path, inputs: Inputs) -> dict[float, Row]:
     InputError
         If the file cannot be read, was damaged or changed, or holds another series or other data.
     """
-    try:
-        if not _holds_data(path):
-            return {}
-        return _read(path, lambda file: _rows(file, path, inputs))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
+    return _read(path, lambda content: _rows(content, inputs)) if holds_data(path, REMEDY) else {}
 
 
-def _holds_data(path: Path) -> bool:
-    return path.exists() and path.stat().st_size > 0
-
-
-def _rows(file: h5py.File, path: Path, inputs: Inputs) -> dict[float, Row]:
+def _rows(content: Content, inputs: Inputs) -> dict[float, Row]:
     """The rows of a series by load, Pa; raises InputError if it has other inputs."""
-    if file.attrs["digest"] != inputs.digest:
-        raise InputError(f"{path}: holds another series, {inputs.difference(file.attrs['settings'])}; {REMEDY}")
-    columns = [file[f"series/{name}"][()] for name in NUMBERS]
-    rows = [_row(dict(zip(NUMBERS, numbers, strict=True))) for numbers in zip(*columns, strict=True)]
+    stored = content.take({"@digest": Text(), "@settings": Json(kind=dict[str, Any])})
+    if stored["@digest"] != inputs.digest:
+        difference = inputs.difference(stored["@settings"])
+        raise InputError(f"{content.path}: holds another series, {difference}; {REMEDY}")
+    columns = content.take({f"series/{name}": _number(name, ("rows",)) for name in NUMBERS}).values()
+    rows = [_row(numbers) for numbers in zip(*(column.tolist() for column in columns), strict=True)]
     return {row.load: row for row in rows}
 
 
@@ -158,25 +180,26 @@ def _refuse_other(path: Path) -> None:
     """Raise InputError if a file is no series of contacts, or one of an older version."""
     if not is_series(path):
         raise InputError(f"{path}: is no series of contacts; {REMEDY}")
-    with path.open("rb") as raw:
+    with opened(path, REMEDY) as raw:
         if len(raw.read(HEADER_BYTES).removeprefix(MARK).rstrip(b"\0").split()) == 1:
             raise InputError(f"{path}: is of an older version of roughfilm; {REMEDY}")
 
 
-def _read(path: Path, get: Callable[[h5py.File], T], arrays: Callable[[str], bool] = lambda _name: True) -> T:
+def _read(path: Path, get: Callable[[Content], T], arrays: Callable[[str], bool] = lambda _name: True) -> T:
     """The return value of ``get``, called with the open file after a check of the arrays."""
     _refuse_other(path)
 
     def checked(file: h5py.File) -> T:
-        if file.attrs["schema"] != SCHEMA:
+        content = Content(file, path, REMEDY)
+        if content.one("@schema", Numbers(kind=int)) != SCHEMA:
             raise InputError(f"{path}: is of another version of roughfilm; {REMEDY}")
-        return get(file)
+        return get(content)
 
     return read(path, MARK, REMEDY, checked, arrays=arrays)
 
 
 def is_series(path: Path) -> bool:
-    """Whether a file holds a series of contacts, whatever its name; raises OSError if it cannot be read."""
+    """Whether a file holds a series of contacts, whatever its name; InputError if it cannot be read."""
     return has_mark(path, MARK)
 
 
@@ -189,14 +212,14 @@ def load_series(path: Path) -> tuple[Inputs, tuple[float, ...]]:
         If the file cannot be read, was damaged or changed, or holds other data.
     """
 
-    def get(file: h5py.File) -> tuple[Inputs, tuple[float, ...]]:
-        dx_dy = file.attrs["spacing"]
-        inputs = Inputs(
-            heights=file["heights"][()],
-            spacing=(float(dx_dy[0]), float(dx_dy[1])),
-            settings=json.loads(file.attrs["settings"]),
-        )
-        return inputs, tuple(sorted(float(name) for name, group in file["loads"].items() if "pressure" in group))
+    def get(content: Content) -> tuple[Inputs, tuple[float, ...]]:
+        content.one("@settings", Json(kind=Settings))
+        stored = content.take({**SURFACE, "@settings": Json(kind=dict[str, Any])})
+        dx, dy = stored["@spacing"].tolist()
+        inputs = Inputs(heights=stored["heights"], spacing=(dx, dy), settings=stored["@settings"])
+        names = {f"loads/{name}@load": Numbers() for name in content.names("loads")}
+        names = {name: one for name, one in names.items() if content.holds(name.replace("@load", "/pressure"))}
+        return inputs, tuple(sorted(content.take(names).values()))
 
     return _read(path, get)
 
@@ -214,26 +237,25 @@ def load_contact(path: Path, load: float) -> Contact:
     """
     name = f"loads/{load!r}"
 
-    def get(file: h5py.File) -> Contact:
-        if name not in file or "pressure" not in file[name]:
+    def get(content: Content) -> Contact:
+        if not content.holds(f"{name}/pressure"):
             raise InputError(f"{path}: holds no fields at {load!r} Pa; solve this load")
-        group = file[name]
-        row = _row(group.attrs)
-        heights, dx_dy = file["heights"][()], file.attrs["spacing"]
-        gap, plastic = group["gap"][()], group["plastic_displacement"][()]
-        approach = float(group.attrs["approach"])
+        stored = content.take(SURFACE | {f"{name}{one}": item for one, item in FIELDS.items()})
+        heights, approach = stored["heights"], stored[f"{name}@approach"]
+        gap, plastic = stored[f"{name}/gap"], stored[f"{name}/plastic_displacement"]
+        dx, dy = stored["@spacing"].tolist()
         return Contact(
             load=load,
-            hardness=float(group.attrs["hardness"]),
+            hardness=stored[f"{name}@hardness"],
             heights=heights,
-            spacing=(float(dx_dy[0]), float(dx_dy[1])),
-            pressure=group["pressure"][()],
+            spacing=(dx, dy),
+            pressure=stored[f"{name}/pressure"],
             elastic_displacement=approach - (heights.max() - heights) - plastic + gap,
             plastic_displacement=plastic,
             approach=approach,
             gap=gap,
-            complementarity=float(group.attrs["complementarity"]),
-            iterations=int(row.iterations or 0),
+            complementarity=stored[f"{name}@complementarity"],
+            iterations=int(stored[f"{name}@iterations"]),
         )
 
     return _read(path, get, lambda array: array == "/heights" or array.startswith(f"/{name}/"))
@@ -271,8 +293,13 @@ def _arrays(contact: Contact) -> dict[str, Array]:
     }
 
 
-def _row(attributes: Mapping[str, Any]) -> Row:
-    numbers = {name: float(attributes[name]) for name in NUMBERS}
-    values: dict[str, Any] = {name: None if math.isnan(number) else number for name, number in numbers.items()}
+def _number(name: str, shape: tuple[str, ...] = ()) -> Numbers:
+    """What the file holds for a number of a row: NaN where the model does not give it."""
+    return Numbers(shape=shape, missing=name not in ALWAYS)
+
+
+def _row(numbers: Sequence[float]) -> Row:
+    given = zip(NUMBERS, numbers, strict=True)
+    values: dict[str, Any] = {name: None if math.isnan(number) else number for name, number in given}
     values["iterations"] = None if values["iterations"] is None else int(values["iterations"])
     return Row(**values)

@@ -15,11 +15,17 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.reading.json_entries import from_json
+from roughfilm.contact.foundation.reading.regular import read_bytes
 from roughfilm.contact.foundation.threads import Team
+from roughfilm.contact.foundation.writing.kinds import beginning_with
 from roughfilm.contact.mechanics import kernels
 
 SLAB_BYTES = 1 << 19
 """Size of the columns that are transformed, multiplied and transformed back together, bytes; it fits the cache."""
+
+MAX_BYTES = 10_000_000
+"""Largest size of the file of plans that is read, bytes."""
 
 ALIGNMENT = 16
 """Number of modes to which rows are padded, plus one such block, so that rows are not a power of two apart."""
@@ -141,9 +147,9 @@ def _recall() -> None:
     import pyfftw  # slow to import
 
     try:
-        kept = json.loads(_file().read_text(encoding="ascii"))
+        kept = from_json(read_bytes(_file(), MAX_BYTES, ""), tuple[str, ...])
         pyfftw.import_wisdom(tuple(text.encode("ascii") for text in kept))
-    except (OSError, ValueError, TypeError, AttributeError, RuntimeError):
+    except (ValueError, RuntimeError):
         return
 
 
@@ -152,7 +158,7 @@ def _keep() -> None:
     import pyfftw  # slow to import
 
     try:
-        with replacing(_file()) as scratch:
+        with replacing(_file(), beginning_with("a list of plans", b"[")) as scratch:
             scratch.write_text(json.dumps([text.decode("ascii") for text in pyfftw.export_wisdom()]), encoding="ascii")
     except InputError:
         return

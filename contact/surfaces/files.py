@@ -1,21 +1,36 @@
 """Reading surfaces from files: HDF5 of this package, NPY, CSV and the formats of instruments."""
 
 import hashlib
+import math
 import re
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.reading.limits import refuse_beyond_memory
+from roughfilm.contact.foundation.reading.npy import read_header, read_numbers
+from roughfilm.contact.foundation.reading.regular import file_size, opened, read_text
 from roughfilm.contact.foundation.units import to_si
+from roughfilm.contact.foundation.writing.kinds import as_input
 from roughfilm.contact.surfaces import store as surface_store
 from roughfilm.contact.surfaces.instruments import Measurement, read_instrument
 from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 
 MAX_CSV_BYTES = 2_000_000_000
 """Size of a CSV file, bytes, above which it is refused unread."""
+
+TEXT_BYTES = 10
+"""Peak memory for each byte of a CSV file, bytes."""
+
+CELL_BYTES = 100
+"""Peak memory for each cell of a line of a CSV file, bytes."""
+
+POINT_BYTES = 64
+"""Peak memory for each point of a surface that is read, bytes."""
+
+NPY_REMEDY = "save numbers of shape (nx, ny) with numpy.save"
 
 HEADER_EXAMPLE = "# spacing: 1.5 um, 1.5 um; heights: um"
 """A correct first line of a CSV file, for messages."""
@@ -54,29 +69,20 @@ def read_surface(
     UnavailableError
         If the file needs SurfaceTopography and it is not installed.
     """
-    try:
-        path = Path(path).expanduser()
-        if not path.is_file():
-            raise InputError(f"{path}: {'is no' if path.exists() else 'no such'} file; name a measured surface")
-        if path.stat().st_size == 0:
-            raise InputError(f"{path}: is empty; export it again from the instrument")
-        if surface_store.is_surface(path):
-            if channel or spacing or height_unit:
-                raise InputError(f"{path}: holds its own spacing and unit; leave out the recipe's table read")
-            return surface_store.load_surface(path)
-        suffix = path.suffix.lower()
-        measurement = _read_npy(path) if suffix == ".npy" else _read_csv(path) if suffix == ".csv" else None
-        if measurement is None:
-            measurement = read_instrument(path, channel)
-        elif channel is not None:
-            raise InputError(f"{path}: has no channels; leave out read.channel")
-        return _surface(path, measurement, spacing, height_unit)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror or error}); check the file") from error
-    except RuntimeError as error:  # raised by pathlib for an unknown home directory or circular links
-        if isinstance(error, ConvergenceError):
-            raise
-        raise InputError(f"{path}: leads nowhere ({error}); write the full path") from error
+    if file_size(Path(path), "name a measured surface") == 0:
+        raise InputError(f"{path}: is empty; export it again from the instrument")
+    path = as_input(Path(path)).expanduser()
+    if surface_store.is_surface(path):
+        if channel or spacing or height_unit:
+            raise InputError(f"{path}: holds its own spacing and unit; leave out the recipe's table read")
+        return surface_store.load_surface(path)
+    suffix = path.suffix.lower()
+    measurement = _read_npy(path) if suffix == ".npy" else _read_csv(path) if suffix == ".csv" else None
+    if measurement is None:
+        measurement = read_instrument(path, channel)
+    elif channel is not None:
+        raise InputError(f"{path}: has no channels; leave out read.channel")
+    return _surface(path, measurement, spacing, height_unit)
 
 
 def _surface(
@@ -111,7 +117,7 @@ def _surface(
             invalid=np.isnan(measurement.heights),
             source={
                 "file": path.name,
-                "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
+                "sha256": file_digest(path),
                 "format": measurement.format,
                 "channel": measurement.channel,
             },
@@ -120,25 +126,25 @@ def _surface(
         raise InputError(f"{path}: {str(error).removeprefix('surface: ')}") from None
 
 
+def file_digest(path: Path) -> str:
+    """The SHA-256 digest of the bytes of a file, in hexadecimal."""
+    with opened(path, "name a measured surface") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
 def _read_npy(path: Path) -> Measurement:
-    try:
-        # A memory map refuses a header that claims more than the file holds before any memory is allocated.
-        array = np.lib.format.open_memmap(path, mode="r")
-    except Exception as error:  # NumPy raises many kinds of error for a damaged header
-        raise InputError(f"{path}: is no whole NPY array; save one of shape (nx, ny) with numpy.save") from error
-    if array.ndim != 2 or array.dtype.kind not in "fiu":
-        raise InputError(f"{path}: got {array.dtype} of shape {array.shape}; save numbers of shape (nx, ny)")
-    _check_point_count(path, array.shape)
-    return Measurement(heights=np.array(array, dtype=float), height_unit="m", size=None, format="npy", channel="")
+    header = read_header(path, NPY_REMEDY)
+    if len(header.shape) != 2:
+        raise InputError(f"{path}: got {header.dtype} of shape {header.shape}; {NPY_REMEDY}")
+    _check_point_count(path, header.shape)
+    nx, ny = header.shape
+    refuse_beyond_memory(f"{path}: a surface of {nx} x {ny} points", POINT_BYTES * nx * ny, "give a smaller one")
+    return Measurement(heights=read_numbers(path, header), height_unit="m", size=None, format="npy", channel="")
 
 
 def _read_csv(path: Path) -> Measurement:
-    if path.stat().st_size > MAX_CSV_BYTES:
-        raise InputError(f"{path}: is larger than {MAX_CSV_BYTES} bytes; save it as NPY")
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: byte {error.start} is not UTF-8; save it as UTF-8 text") from error
+    refuse_beyond_memory(f"{path}: reading it", TEXT_BYTES * file_size(path, NPY_REMEDY), "save it as NPY")
+    text = read_text(path, MAX_CSV_BYTES, "save it as NPY")
     lines = [(number, line) for number, line in enumerate(text.split("\n"), 1) if line.strip()]
     step = unit = None
     if lines and lines[0][1].startswith("#"):
@@ -159,11 +165,15 @@ def _read_csv(path: Path) -> Measurement:
 def _numbers(path: Path, lines: list[tuple[int, str]]) -> Array:
     rows: list[Array] = []
     for number, line in lines:
-        cells = line.split(",")
-        if rows and len(cells) != rows[0].size:
+        width = line.count(",") + 1
+        if rows and width != rows[0].size:
             raise InputError(
-                f"{path}: line {number} has {len(cells)} cells, the first {rows[0].size}; write a matrix with commas"
+                f"{path}: line {number} has {width} cells, the first {rows[0].size}; write a matrix with commas"
             )
+        _check_point_count(path, (len(rows) + 1, width))
+        if not rows:
+            refuse_beyond_memory(f"{path}: line {number} of {width} cells", CELL_BYTES * width, "save it as NPY")
+        cells = line.split(",")
         for cell in () if _CELLS.fullmatch(line) else cells:
             if not _CELLS.fullmatch(cell):
                 raise InputError(f"{path}: line {number}: got {cell.strip()[:40]!r}; write numbers with commas between")
@@ -172,7 +182,6 @@ def _numbers(path: Path, lines: list[tuple[int, str]]) -> Array:
         except ValueError as error:
             reason = str(error).rpartition(": ")[2][:40]
             raise InputError(f"{path}: line {number}: got {reason}; write numbers with commas between") from None
-        _check_point_count(path, (len(rows), len(cells)))
     if not rows:
         raise InputError(f"{path}: holds no numbers; write a matrix of heights, separated by commas")
     heights = np.array(rows).T
@@ -183,6 +192,6 @@ def _numbers(path: Path, lines: list[tuple[int, str]]) -> Array:
     return heights
 
 
-def _check_point_count(path: Path, shape: tuple[Any, ...]) -> None:
-    if shape[0] * shape[1] > MAX_POINTS:
+def _check_point_count(path: Path, shape: tuple[int, ...]) -> None:
+    if math.prod(shape) > MAX_POINTS:
         raise InputError(f"{path}: claims {shape[0]} x {shape[1]} points; at most {MAX_POINTS} are read")

@@ -9,6 +9,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.ranges import RANGES
 
 MAX_LENGTH = 1e6
 """Largest height and spacing, m; larger values have a wrong unit, and their powers overflow."""
@@ -36,8 +37,8 @@ class Surface:
     Raises
     ------
     InputError
-        If there are fewer than 2 x 2 pixels, a valid height is not finite, every pixel is invalid, a height exceeds
-        1e6 m, or a spacing is outside 1e-15 m to 1e6 m.
+        If there are fewer than 2 x 2 pixels, a valid height is not finite, every pixel is invalid, the highest
+        exceeds 1e6 m or is below 1e-22 m and not 0, or a spacing is outside 1e-15 m to 1e6 m.
 
     Examples
     --------
@@ -69,8 +70,9 @@ class Surface:
         heights[invalid] = 0.0
         if not np.isfinite(heights).all():
             raise InputError("surface: a height is not finite; mark such pixels as invalid")
-        if np.abs(heights).max() > MAX_LENGTH:
-            raise InputError(f"surface: got a height of {np.abs(heights).max():.3g} m; look at the unit")
+        highest = float(np.abs(heights).max())
+        if highest > MAX_LENGTH or highest not in RANGES["m"]:
+            raise InputError(f"surface: got a height of {highest:.3g} m; look at the unit")
         spacing = tuple(float(length) for length in self.spacing)
         if len(spacing) != 2 or not all(MIN_SPACING <= length < MAX_LENGTH for length in spacing):
             raise InputError(f"surface: got spacing {self.spacing!r}; give two lengths in m, 1e-15 or more")

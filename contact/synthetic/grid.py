@@ -8,9 +8,13 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.reading.limits import refuse_beyond_memory
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 from roughfilm.contact.synthetic.checks import length, whole_between
+
+POINT_BYTES = 84
+"""Largest memory for each point of a surface while it is made, bytes, measured at 2048 x 2048 points."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,8 +30,8 @@ class Grid:
     Raises
     ------
     InputError
-        If a side has fewer than 2 points, there are more than 1e8 points, a length is out of range, or the ratio of the
-        sides exceeds 1e6.
+        If a side has fewer than 2 points, there are more than 1e8 points or more than the memory holds, a length is out
+        of range, or the ratio of the sides exceeds 1e6.
     """
 
     kind: str
@@ -44,6 +48,8 @@ class Grid:
             whole_between(f"{self.kind}.points", count, 2, MAX_POINTS)
         if self.points[0] * self.points[1] > MAX_POINTS:
             raise InputError(f"{self.kind}.points: got {self.points[0]} x {self.points[1]}; write at most 1e8 in total")
+        what = f"{self.kind}.points: a surface of {self.points[0]} x {self.points[1]} points"
+        refuse_beyond_memory(what, POINT_BYTES * self.points[0] * self.points[1], "write fewer points")
         if not 1e-6 <= self.size[0] / self.size[1] <= 1e6:
             raise InputError(f"{self.kind}.size: got {self.size[0]:.3g} m by {self.size[1]:.3g} m; look at the units")
 

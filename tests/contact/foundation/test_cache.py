@@ -8,6 +8,7 @@ import pytest
 
 from roughfilm.contact.foundation import cache
 from roughfilm.contact.foundation.timing import claimed_costs, one_time, working_time
+from roughfilm.contact.foundation.writing.scratch import HOST
 
 
 def entry(number: int, size: int, age: float) -> str:
@@ -41,16 +42,18 @@ def test_what_is_no_entry_is_never_removed():
     assert (cache.user_directory() / f"{2:064x}.h5").exists()
 
 
-def test_remains_of_killed_processes_are_removed_after_a_day():
+def test_what_killed_processes_leave_is_removed_and_their_locks_after_a_day():
     name = entry(1, 10, 0.0)
     folder = cache.user_directory() / "tables"
-    stem = name.removesuffix(".h5")
-    old, fresh = folder / f".{stem}-abc123.h5", folder / f".{stem}-def456.h5"
-    for path in (old, fresh):
-        path.write_bytes(b"half")
+    old, fresh = (folder / f"{number:064x}.lock" for number in (1, 2))
+    left = folder / f".roughfilm-{HOST}-0123abcd"
+    left.mkdir()
+    (left / name).write_bytes(b"half")
+    for path in (old, fresh, left.with_suffix(".lock")):
+        path.touch()
     os.utime(old, (0, 0))
     assert cache.trim() == []
-    assert (old.exists(), fresh.exists()) == (False, True)
+    assert {path.name for path in folder.iterdir()} == {name, fresh.name}
 
 
 def test_the_variable_names_the_directory_before_the_home_of_caches(monkeypatch, tmp_path):

@@ -70,8 +70,12 @@ def test_units(text, base, value):
         ("30 s", "wrong dimension"),
         ("30 furlongz", "not known"),
         ("um 30", "write a number and a unit"),
-        ("1e400 m", "write a number and a unit|not finite"),
-        ("1e308 km", "not finite"),
+        ("1e400 m", "a length must be 1e-22 to 1e\\+13 m"),
+        ("1e308 km", "a length must be 1e-22 to 1e\\+13 m"),
+        ("-1e14 m", "got .* a length must be"),
+        ("1e-23 m", "a length must be"),
+        ("1e-999 m", "a length must be"),
+        ("0.0001e-320 m", "a length must be"),
         ("nan m", "write a number"),
         ("inf m", "write a number"),
         ("9**9**9**9 m", "not known"),
@@ -108,7 +112,7 @@ def test_no_text_raises_anything_but_value_error(text):
         assert isinstance(to_si(text, "m"), float)
 
 
-@given(st.floats(min_value=1e-300, max_value=1e300))
+@given(st.floats(min_value=1e-12, max_value=1e14))
 def test_written_numbers_are_read_back_to_the_last_bit(value):
     assert to_si(with_unit(value, "kg/m^3"), "kg/m^3") == value
 

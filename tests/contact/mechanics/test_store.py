@@ -1,8 +1,11 @@
 """A series of contacts in a file: read back as it was, whole or refused, and another series is never taken for it."""
 
+import gc
 import math
 import multiprocessing
 import os
+import resource
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +17,7 @@ from roughfilm.contact.foundation import growing_hdf5
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.growing_hdf5 import Writer, undo_file
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.writing.scratch import sweep
 from roughfilm.contact.mechanics import store as contact_store
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import add, finished, load_contact, load_series, row_of
@@ -271,4 +275,66 @@ def test_a_file_that_replaced_a_half_written_one_is_kept(file, inputs, contacts)
     add(copy, inputs, [third(contacts)])
     copy.replace(file)
     assert sorted(finished(file, inputs)) == [3e7, 2e8, 1e9]
+    sweep(file.parent)
     assert os.listdir(file.parent) == ["c.h5"]
+
+
+@contextmanager
+def largest_file(size):
+    """A limit of the size of a file, as a full disk or a quota sets it."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+@pytest.mark.parametrize("room", [-math.inf, 0, 500, 3_000, 6_000])
+def test_a_full_disk_leaves_the_loads_before(file, inputs, contacts, room, capfd):
+    whole = file.read_bytes()
+    with (
+        largest_file(int(max(len(whole) + room, 100))),
+        pytest.raises(InputError, match=r"c\.h5: cannot be written \(File too large\); raise"),
+    ):
+        add(file, inputs, [third(contacts)])
+    gc.collect()
+    assert capfd.readouterr().err == ""
+    assert file.read_bytes() == whole
+    assert os.listdir(file.parent) == ["c.h5"]
+    add(file, inputs, [third(contacts)])
+    assert 1e9 in finished(file, inputs)
+
+
+@pytest.mark.parametrize("size", [0, 600, 3_000, 9_000, 15_000])
+def test_a_full_disk_leaves_no_new_file(inputs, contacts, tmp_path, size, capfd):
+    path = tmp_path / "new" / "c.h5"
+    with largest_file(size), pytest.raises(InputError, match=r"c\.h5: cannot be written \(File too large\); raise"):
+        add(path, inputs, [(row_of(contact, 0.25), contact) for contact in contacts])
+    gc.collect()
+    assert capfd.readouterr().err == ""
+    assert not [*path.parent.iterdir()]
+
+
+@pytest.mark.skipif(not Path("/proc/self/io").exists(), reason="bytes written are not counted here")
+def test_a_load_is_written_once_however_many_the_file_holds(tmp_path):
+    heights = np.random.default_rng(5317).normal(scale=1e-7, size=(256, 256))
+    inputs, path = Inputs(heights=heights, spacing=(1e-6, 1e-6), settings=SETTINGS), tmp_path / "c.h5"
+    contact = Press(heights, (1e-6, 1e-6), 2e11).at(3e7)
+
+    def written():
+        return int(Path("/proc/self/io").read_text().partition("wchar: ")[2].split()[0])
+
+    before = written()
+    for number in range(1, 13):
+        one = replace(contact, load=number * 1e6)
+        add(path, inputs, [(row_of(one, 0.25), one)])
+    assert written() - before < 1.3 * path.stat().st_size
+
+
+@pytest.mark.parametrize("text", [b"", b"{}\n", b'{"inode": 1, "size": 1, "places": [[0, 9]]}\nabc'])
+def test_a_damaged_undo_file_is_one_line(file, inputs, text):
+    undo_file(file).write_bytes(text)
+    with pytest.raises(InputError, match=r"\.undo: is damaged \(.*\); remove it") as raised:
+        finished(file, inputs)
+    assert "\n" not in str(raised.value)

@@ -149,9 +149,9 @@ def test_a_joint_that_stays_bad_warns():
         ({"outliers": {"points": 100_000}}, "^outliers: no bin of 1000 holds 100000 points"),
         ({"grid": {"points": [12, 12]}, "smoothing": 13}, "^smoothing: got 13 points"),
         ({"grid": {"points": [50_000, 50_000]}}, "^grid: got 50000 x 50000 points; at most 100000000 are made"),
-        ({"window": {"size": ["1e305 m", "1e305 m"]}}, "^window: got at least 1000000000 pixels along x"),
+        ({"window": {"size": ["1e13 m", "1e13 m"]}}, "^window: got at least 1000000000 pixels along x"),
         (
-            {"window": {"size": ["10 um", "10 um"], "start": ["-1e305 m", "0 m"]}},
+            {"window": {"size": ["10 um", "10 um"], "start": ["-1e13 m", "0 m"]}},
             "^window: got .* from pixel -1000000000",
         ),
     ],

@@ -150,7 +150,7 @@ def test_an_npy_that_is_no_map_of_heights_is_refused(tmp_path, array):
 
 def test_an_npy_of_objects_is_never_unpickled(tmp_path):
     np.save(tmp_path / "s.npy", np.array([[print, 1], [2, 3]], dtype=object), allow_pickle=True)
-    with pytest.raises(InputError, match="is no whole NPY array"):
+    with pytest.raises(InputError, match="got object of shape"):
         read_surface(tmp_path / "s.npy", spacing=SPACING)
 
 
@@ -205,7 +205,7 @@ def test_our_own_file_is_not_contradicted(tmp_path, given):
 
 def test_a_link_that_leads_in_circles_is_refused(tmp_path):
     (tmp_path / "loop.csv").symlink_to(tmp_path / "loop.csv")
-    with pytest.raises(InputError, match="no such file"):
+    with pytest.raises(InputError, match=r"cannot be read .*links"):
         read_surface(tmp_path / "loop.csv")
 
 
@@ -217,7 +217,7 @@ def test_a_home_that_is_not_known_is_refused():
 def test_what_is_no_file_is_refused(tmp_path):
     with pytest.raises(InputError, match="no such file; name a measured surface"):
         read_surface(tmp_path / "absent.opd")
-    with pytest.raises(InputError, match="is no file; name a measured surface"):
+    with pytest.raises(InputError, match="is no file, but a directory; name a measured surface"):
         read_surface(tmp_path)
 
 

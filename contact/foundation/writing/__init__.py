@@ -1,0 +1,1 @@
+"""What an output may replace, and scratch files that end with their process."""
