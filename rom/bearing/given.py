@@ -11,6 +11,7 @@ from pydantic import Field, model_validator
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Length
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.reading.regular import file_size, opened
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE, Pad
 from roughfilm.rom.bearing.texture import pocketed
@@ -53,12 +54,8 @@ class Given(Pad):
         path = Path(self.thickness).expanduser()
         if path.suffix.lower() not in PLAIN_FORMATS:
             raise InputError(f"{path}: is neither NPY nor CSV; save the film thickness as one of them")
-        try:
-            state = path.stat()
-        except OSError as error:
-            reason = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
-            raise InputError(f"{path}: {reason}; name a file of film thickness") from None
-        return _above_minimum(str(path), state.st_mtime_ns, state.st_size)
+        size = file_size(path, "name a file of film thickness")
+        return _above_minimum(str(path), path.stat().st_mtime_ns, size)
 
     def film_shape(self) -> Shape:
         """The shape of the film, with its texture."""
@@ -82,7 +79,8 @@ class Given(Pad):
 @lru_cache(maxsize=4)
 def _above_minimum(name: str, _modified: int, _size: int) -> tuple[Array, str]:
     path = Path(name)
-    has_header = path.suffix.lower() == ".csv" and path.read_bytes()[:16].lstrip().startswith(b"#")
+    with opened(path, "name a file of film thickness") as file:
+        has_header = path.suffix.lower() == ".csv" and file.read(16).lstrip().startswith(b"#")
     surface = read_surface(path, spacing=(1.0, 1.0), height_unit=None if has_header else "m")
     if surface.invalid.any():
         i, j = np.argwhere(surface.invalid)[0]

@@ -1,6 +1,5 @@
 """The roughness of the shaped wall in scene files: sinusoidal ridges, a periodic surface, or a stored table."""
 
-import hashlib
 import math
 from functools import lru_cache
 from pathlib import Path
@@ -13,6 +12,8 @@ from pydantic import Field, model_validator
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Angle, Length, Part, PositiveNumber
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.reading.regular import file_size
+from roughfilm.contact.surfaces.files import file_digest
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.homogenization.ridges import sinusoidal_ridges
 from roughfilm.rom.homogenization.table.factor_table import FactorTable
@@ -231,11 +232,9 @@ class StoredTable(Part):
     def _can_be_read(self) -> Self:
         path = Path(self.table).expanduser()
         try:
-            digest = hashlib.sha256(path.read_bytes()).hexdigest()[:32]
+            file_size(path, "name a table of flow factors")
             self.read()
-        except OSError as error:
-            reason = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
-            raise ValueError(f"table: in {path}: {reason}; name a table of flow factors") from None
+            digest = file_digest(path)[:32]
         except InputError as error:
             raise ValueError(f"table: in {error}") from None
         if self.digest not in (None, digest):

@@ -1,5 +1,6 @@
 """Pockets in the still wall, in rows and columns."""
 
+import math
 from dataclasses import replace
 from itertools import pairwise
 from typing import Annotated, Literal, Self
@@ -108,7 +109,7 @@ def _rows(texture: Texture, across: tuple[float, float]) -> list[tuple[float, fl
 
 def _distinct(places: list[float], low: float, high: float, slack: float) -> tuple[float, ...]:
     sorted_places = [low, *sorted(place for place in places if low + slack < place < high - slack), high]
-    return tuple(b for a, b in pairwise([low - 1, *sorted_places]) if b - a > slack)
+    return tuple(b for a, b in pairwise([-math.inf, *sorted_places]) if b - a > slack)
 
 
 def _depth(texture: Texture, across: tuple[float, float], x: Array, y: Array) -> Array:

@@ -11,8 +11,9 @@ from typing import Annotated, Any
 from pydantic import Field, ValidationError
 
 from roughfilm import rom
+from roughfilm.contact.foundation.arrays import finite_arithmetic
 from roughfilm.contact.foundation.entries import Part
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.faults import EntriesFile, Fault, faults_of, in_lines, known_keys, unknown_key
 from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity
@@ -179,10 +180,13 @@ class Kind:
     def read(self, entries: Mapping[str, Any], file: EntriesFile | None = None) -> Scene:
         """Make a scene of this kind from nested entries of a file; InputError with a line for each fault."""
         try:
-            return self.scene.model_validate(entries)
+            with finite_arithmetic("scene" if file is None else str(file.path)):
+                return self.scene.model_validate(entries)
         except ValidationError as error:
             faults = (self.faults or partial(plain_faults, scene=self.scene))(error, entries)
             raise InputError(in_lines(faults, "scene", file)) from None
+        except ConvergenceError as error:
+            raise InputError(str(error)) from error
 
     def scale_of(self, result: Result, quantity: str) -> float:
         """The size by which an error in a quantity is divided, if this result is the reference."""

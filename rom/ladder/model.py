@@ -15,11 +15,12 @@ from typing import Any, Generic, NotRequired, TypedDict
 
 from typing_extensions import TypeVar
 
+from roughfilm.contact.foundation.arrays import finite_arithmetic
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
 from roughfilm.contact.foundation.timing import claimed_costs
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.request import CheckedRequest, Request
-from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.ladder.result import Result, with_finite_numbers
 
 
 class Effect(StrEnum):
@@ -57,6 +58,10 @@ class Availability:
 
     available: bool
     detail: str = ""
+
+
+MAX_COST_S = 1e9
+"""Expected CPU time, s, above which a scene is refused: 30 years, or 11 days on 1000 cores."""
 
 
 def _between(least: float, value: Any, most: float, numbers: Any) -> bool:
@@ -193,18 +198,24 @@ class Model(Generic[SceneT]):
         Raises
         ------
         InputError
-            If an option is outside the range that the model allows, or the model cannot solve the scene.
+            If an option is outside the range that the model allows, the model cannot solve the scene, or it would take
+            more than ``MAX_COST_S``.
         ConvergenceError
-            If the solver does not reach the tolerance.
+            If the solver does not reach the tolerance, or its numbers overflow.
         UnavailableError
             If a program that the model needs is not on this machine.
         """
         here = self.available()
         if not here.available:
             raise UnavailableError(f"{self.name}: {here.detail}")
-        checked, started = self.checked(scene, request), time.perf_counter()
-        with reported_to(progress):
-            result = self.compute(self, scene, checked, progress)
+        with reported_to(progress), finite_arithmetic(self.name):
+            checked, started = self.checked(scene, request), time.perf_counter()
+            if not self.cost(scene, checked.resolution) <= MAX_COST_S:
+                raise InputError(
+                    f"resolution: {checked.resolution} {self.resolution_meaning} would take {self.name} more than "
+                    f"{MAX_COST_S:g} s of CPU; take fewer"
+                )
+            result = with_finite_numbers(self.compute(self, scene, checked, progress))
         waited = max(time.perf_counter() - started, result.numerics.wall_s)
         return replace(result, numerics=replace(result.numerics, wall_s=waited, one_time=claimed_costs()))
 

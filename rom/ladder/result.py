@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.arrays import OVERFLOW_REMEDY
 from roughfilm.contact.foundation.brief import brief
-from roughfilm.contact.foundation.errors import UnavailableError
+from roughfilm.contact.foundation.errors import ConvergenceError, UnavailableError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.gridded import gridded
 
@@ -212,3 +213,46 @@ def with_uncertainties(quantities: Mapping[str, Quantity], uncertainties: Mappin
         else quantity
         for name, quantity in quantities.items()
     }
+
+
+def with_finite_numbers(result: Result) -> Result:
+    """The result without the uncertainties, expected errors and details that are not finite: those are unknown.
+
+    Raises
+    ------
+    ConvergenceError
+        If a quantity, the residual or a field is not finite.
+    """
+
+    def refuse(what: str) -> None:
+        raise ConvergenceError(f"{result.model}: {what} is not a finite number; {OVERFLOW_REMEDY}")
+
+    for name, quantity in result.quantities.items():
+        if not math.isfinite(quantity.value):
+            refuse(name)
+    if not math.isfinite(result.numerics.residual):
+        refuse("the residual")
+    for name, one in result.fields.items():
+        if not np.isfinite(one.values).all():
+            refuse(f"the field {name}")
+    uncertainties = {name: one.uncertainty for name, one in result.quantities.items() if one.uncertainty is not None}
+    bare = {name: replace(one, uncertainty=None) for name, one in result.quantities.items()}
+    return replace(
+        result,
+        quantities=with_uncertainties(bare, uncertainties),
+        expected_error=_finite(result.expected_error),
+        numerics=replace(
+            result.numerics,
+            details=_finite(result.numerics.details),
+            runs=tuple(_with_known_numbers(run) for run in result.numerics.runs),
+        ),
+    )
+
+
+def _finite(numbers: Mapping[str, float]) -> dict[str, float]:
+    return {name: number for name, number in numbers.items() if math.isfinite(number)}
+
+
+def _with_known_numbers(run: SolverRun) -> SolverRun:
+    known = _finite({name: getattr(run, name) for name in ("residual", "imbalance") if getattr(run, name) is not None})
+    return replace(run, residual=known.get("residual"), imbalance=known.get("imbalance"))

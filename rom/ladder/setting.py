@@ -54,19 +54,15 @@ def read_settings(table: object, models: Sequence[Model]) -> tuple[Setting, ...]
     for key in table:
         if key not in ("models", "resolution", "scheme"):
             raise InputError(f"study.{key}: unknown key; known here: models, resolution, scheme")
-    names = [model.name for model in models]
-    wanted = table.get("models", [model.name for model in models if model.available().available])
+    names = list(dict.fromkeys(model.name for model in models))
+    wanted = table.get("models", names)
     if not isinstance(wanted, list) or not wanted or len(set(map(str, wanted))) < len(wanted):
-        raise InputError(f"study.models: got {wanted!r}; list different ones of {', '.join(names)}")
+        raise InputError(f"study.models: got {wanted!r:.80}; list different ones of {', '.join(names)}")
     for name in wanted:
         if name not in names:
             raise InputError(f"study.models: got {name!r}; it must be one of {', '.join(names)}")
-    chosen = [model for model in models if model.name in wanted]
-    for model in chosen:
-        if not model.available().available:
-            raise UnavailableError(f"study.models: {model.name}: {model.available().detail}")
-    resolutions = _by_model(table, "resolution", names if "models" not in table else wanted)
-    schemes = _by_model(table, "scheme", names if "models" not in table else wanted)
+    resolutions = _by_model(table, "resolution", wanted)
+    schemes = _by_model(table, "scheme", wanted)
     for name, values in resolutions.items():
         for value in values:
             if isinstance(value, bool) or not isinstance(value, int) or value < 1:
@@ -76,6 +72,11 @@ def read_settings(table: object, models: Sequence[Model]) -> tuple[Setting, ...]
             if value not in model.schemes:
                 remedy = f"it must be one of {', '.join(model.schemes)}" if model.schemes else "it offers no choice"
                 raise InputError(f"study.scheme.{model.name}: got {value!r}; {remedy}")
+    chosen = [model for model in models if model.name in wanted]
+    absent = [model for model in chosen if not model.available().available]
+    if absent and "models" in table:
+        raise UnavailableError(f"study.models: {absent[0].name}: {absent[0].available().detail}")
+    chosen = [model for model in chosen if model not in absent]
     return tuple(
         Setting(model=model, resolution=resolution, scheme=scheme)
         for model in chosen

@@ -43,7 +43,7 @@ def checked(table: object) -> Table:
         raise ValueError(
             f"got {got}; name a file, or give {MIN_ROWS} to {MAX_ROWS} rows [pressure, density] in Pa, kg/m^3"
         )
-    rows = number_pairs(table, name="row", columns="pressure and density in Pa and kg/m^3")
+    rows = number_pairs(table, COLUMNS, name="row")
     if rows[0][0] != 0 or rows[0][1] <= 0:
         raise ValueError(f"got {rows[0]!r} as row 1; it must be the density at pressure 0 (cavitation pressure)")
     for number, (before, after) in enumerate(pairwise(rows), 2):

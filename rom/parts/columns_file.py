@@ -1,16 +1,17 @@
 """Two columns of numbers from a scene or a file: CSV with a header that gives units, or NPY in SI units."""
 
 import csv
-import math
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from roughfilm.contact.foundation.entries import plain_number
-from roughfilm.contact.foundation.units import to_si
+from roughfilm.contact.foundation.entries import si_number
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.ranges import RANGES
+from roughfilm.contact.foundation.reading.npy import read_header, read_numbers
+from roughfilm.contact.foundation.reading.regular import file_size, read_text
+from roughfilm.contact.foundation.units import converted, to_si
 
 MAX_ROWS = 2000
 """Largest number of rows."""
@@ -35,58 +36,56 @@ def read_rows(path: Path, columns: Mapping[str, str], *, header: str) -> list[li
         If the file cannot be read, or a row is invalid.
     """
     try:
-        path = path.expanduser()
-        if not path.is_file():
-            raise ValueError("is not there; name a file of points" if not path.exists() else "is no file; name one")
-        if path.stat().st_size > MAX_BYTES:
-            raise ValueError(f"is larger than {MAX_BYTES} bytes; give at most {MAX_ROWS} points")
+        if file_size(path, "name a file of points") > MAX_BYTES:
+            raise InputError(f"{path}: is larger than {MAX_BYTES} bytes; give at most {MAX_ROWS} points")
         return _read_npy(path, columns) if path.suffix.lower() == ".npy" else _read_csv(path, columns, header)
-    except OSError as error:
-        raise ValueError(f"cannot be read ({error.strerror or error}); check its permissions") from error
-    except RuntimeError as error:
-        raise ValueError("has a home directory that does not exist; write the whole path") from error
+    except InputError as error:
+        raise ValueError(str(error).removeprefix(f"{path}: ")) from None
 
 
-def number_pairs(rows: Sequence[Any], *, name: str, columns: str) -> tuple[tuple[float, float], ...]:
-    """The rows as pairs of finite floats; ``name`` of a row and ``columns`` with their units are for messages.
+def number_pairs(rows: Sequence[Any], columns: Mapping[str, str], *, name: str) -> tuple[tuple[float, float], ...]:
+    """The rows as pairs of floats, each in the range of its unit; a smaller one is a rounding error and counts as zero.
+
+    Parameters
+    ----------
+    rows : pairs of numbers in SI units.
+    columns : name of each column and its SI unit.
+    name : what a row is, for messages.
 
     Raises
     ------
     ValueError
-        If a row is not two finite numbers.
+        If a row is not two numbers, or a number is out of range.
     """
-    return tuple(_pair(row, f"{name} {number}", columns) for number, row in enumerate(rows, 1))
+    return tuple(_pair(row, columns, f"{name} {number}") for number, row in enumerate(rows, 1))
 
 
-def _pair(row: Any, name: str, columns: str) -> tuple[float, float]:
+def _pair(row: Any, columns: Mapping[str, str], name: str) -> tuple[float, float]:
     if not isinstance(row, list | tuple) or len(row) != 2:
-        raise ValueError(f"got {row!r:.60} as {name}; write {columns}")
-    first, second = map(plain_number, row)
-    if not (math.isfinite(first) and math.isfinite(second)):
-        raise ValueError(f"got {row!r} as {name}; both numbers must be finite")
+        units = " and ".join(dict.fromkeys(columns.values()))
+        raise ValueError(f"got {row!r:.60} as {name}; write {' and '.join(columns)} in {units}")
+    numbers = [si_number(value) for value in row]
+    for number, (column, unit) in zip(numbers, columns.items(), strict=True):
+        if not abs(number) <= RANGES[unit].most:
+            raise ValueError(f"got {number!r} {unit} as {column} of {name}; it must be 0 or {RANGES[unit]} in size")
+    first, second = (
+        number if number in RANGES[unit] else 0.0 for number, unit in zip(numbers, columns.values(), strict=True)
+    )
     return first, second
 
 
 def _read_npy(path: Path, columns: Mapping[str, str]) -> list[list[float]]:
-    try:
-        # A memory map checks the size that the header claims before it allocates memory.
-        array = np.lib.format.open_memmap(path, mode="r")
-    except Exception as error:  # a damaged header causes many kinds of error
-        raise ValueError("is no NPY array; save one of shape (n, 2) with numpy.save") from error
-    if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "fiu":
-        units = " and ".join(dict.fromkeys(columns.values()))
-        raise ValueError(
-            f"got {array.dtype} of shape {array.shape}; save numbers of shape (n, 2), "
-            f"{' and '.join(columns)} in {units}"
-        )
-    return [[float(value) for value in row] for row in array]
+    units = " and ".join(dict.fromkeys(columns.values()))
+    remedy = f"save numbers of shape (n, 2), {' and '.join(columns)} in {units}"
+    numbers = read_header(path, remedy)
+    if len(numbers.shape) != 2 or numbers.shape[1] != 2:
+        raise ValueError(f"got {numbers.dtype} of shape {numbers.shape}; {remedy}")
+    rows: list[list[float]] = read_numbers(path, numbers).tolist()
+    return rows
 
 
 def _read_csv(path: Path, columns: Mapping[str, str], header: str) -> list[list[float]]:
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise ValueError(f"byte {error.start} is not UTF-8; save the points as UTF-8 text") from error
+    text = read_text(path, MAX_BYTES, f"give at most {MAX_ROWS} points")
     try:
         lines = [(number, row) for number, row in enumerate(csv.reader(text.splitlines()), 1) if any(row)]
     except csv.Error as error:
@@ -100,10 +99,15 @@ def _read_csv(path: Path, columns: Mapping[str, str], header: str) -> list[list[
             raise ValueError(f"line {number}: got {len(row)} columns; write two, {' and '.join(columns)}")
         try:
             cells = zip(row, units, columns.values(), strict=True)
-            rows.append([to_si(f"{cell.strip()} {unit}", base) for cell, unit, base in cells])
+            rows.append([_cell(f"{cell.strip()} {unit}", base) for cell, unit, base in cells])
         except ValueError as error:
             raise ValueError(f"line {number}: {error}") from None
     return rows
+
+
+def _cell(text: str, base: str) -> float:
+    """The number of a cell in its SI unit; zero for one below the range of the unit."""
+    return 0.0 if abs(converted(text, base)) < RANGES[base].least else to_si(text, base)
 
 
 def _units(first: list[str], columns: Mapping[str, str], header: str) -> list[str]:

@@ -10,6 +10,7 @@ from pydantic import BeforeValidator, PlainSerializer, model_validator
 
 from roughfilm.contact.foundation.entries import LengthPair, Part
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.reading.regular import file_size
 from roughfilm.contact.foundation.timing import one_time
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.mechanics.moments import WavePower, wave_power
@@ -106,11 +107,10 @@ class SurfaceGeometry(Part):
             return _made(json.dumps(self.surface, sort_keys=True))
         path = Path(self.surface).expanduser()
         try:
-            status = path.stat()
-            native = path.is_file() and is_surface(path)
-        except OSError as error:
-            fault = "no such file" if isinstance(error, FileNotFoundError) else f"cannot be read ({error.strerror})"
-            raise InputError(f"in {path}: {fault}; name a file of heights") from None
+            size = file_size(path, "name a file of heights")
+            native = is_surface(path)
+        except InputError as error:
+            raise InputError(f"in {error}") from None
         if native and self.spacing is not None:
             raise InputError(f"in {path}: it contains its spacing; leave the key spacing out")
         if not native and path.suffix.lower() not in PLAIN_FORMATS:
@@ -119,7 +119,7 @@ class SurfaceGeometry(Part):
             )
         if path.suffix.lower() == ".npy" and not native and self.spacing is None:
             raise InputError(f'in {path}: it gives no spacing of its points; add spacing = "1 um"')
-        return _read(str(path), self.spacing, status.st_mtime_ns, status.st_size)
+        return _read(str(path), self.spacing, path.stat().st_mtime_ns, size)
 
     def spectrum(self) -> WavePower | None:
         """The mean square of the heights by wave; None for a flat surface."""

@@ -32,7 +32,7 @@ def checked(points: object) -> Points:
         raise ValueError(f"got {points!r:.60}; name a file, or give [[position, depth], ...] in m")
     if not MIN_POINTS <= len(points) <= MAX_ROWS:
         raise ValueError(f"got {len(points)} points; a groove needs {MIN_POINTS} to {MAX_ROWS} of them")
-    rows = number_pairs(points, name="point", columns="position and depth in m")
+    rows = number_pairs(points, COLUMNS, name="point")
     for number, ((before, _), (place, depth)) in enumerate(pairwise(rows), 2):
         if place == before:
             raise ValueError(

@@ -1,7 +1,7 @@
 """The answers of a sweep: a quantity over what varies, its best case, and the optimum between the cases."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -185,8 +185,16 @@ def _same(values: Array) -> bool:
     return bool(np.ptp(known) <= SAME * np.abs(known).max()) if known.size else True
 
 
-def answer_of(sweep: Sweep, setting: str, quantity: str) -> Answer:
-    """The values of a quantity by a setting, with their uncertainty and their order; the setting found it in a case."""
+def answer_of(sweep: Sweep, setting: str, quantity: str, left_out: Collection[int] = ()) -> Answer:
+    """The values of a quantity by a setting, with their uncertainty and their order; the setting found it in a case.
+
+    Parameters
+    ----------
+    sweep : the sweep.
+    setting : name of the setting.
+    quantity : name of the quantity.
+    left_out : numbers of cases that are not ranked, such as edited ones, unless all solved cases are among them.
+    """
     values = sweep.found[setting][quantity]
     own = sweep.uncertainty[setting][quantity]
     by_laws = np.full(values.size, np.nan)
@@ -200,6 +208,8 @@ def answer_of(sweep: Sweep, setting: str, quantity: str) -> Answer:
     size = np.abs(values) if sense is Sense.SMALLEST else -values
     uncertainty = np.where(np.isnan(own), by_laws, own)
     solved = np.isfinite(values)
+    kept = solved & ~np.isin(np.arange(values.size), [*left_out])
+    solved = kept if kept.any() else solved
     worthless = solved & (uncertainty > np.abs(values))
     ranked = np.flatnonzero(solved if (worthless == solved).all() else solved & ~worthless)
     return Answer(
@@ -263,7 +273,7 @@ def optimum(parameters: Sequence[Parameter], along: Parameter, answer: Answer) -
     x = np.log(x) if along.logarithmic else x
     y, bars = answer.values[cases], answer.uncertainty[cases]
     used = slice(middle - 1, middle + 2)
-    if np.isnan(bars[used]).any() or {*cases[used]} & {*answer.unranked}:
+    if np.isnan(bars[used]).any() or not {*cases[used]} <= {*answer.order}:
         return None
     found = _vertex(x[used], y[used])
     if found is None:

@@ -13,6 +13,7 @@ from typing import Any
 
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.faults import EntriesFile
 from roughfilm.contact.foundation.toml import toml_value
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model, of_kind
@@ -90,7 +91,7 @@ def load_study(path: Path, models: Sequence[Model]) -> Study:
     """
     entries = load_entries(path)
     kind = kind_named(entries)
-    settings = read_settings(entries.pop("study", {}), models if kind is None else of_kind(models, kind.name))
+    table = entries.pop("study", {})
     variants = entries.pop("variants", [{}])
     if not isinstance(variants, list) or not all(isinstance(variant, dict) for variant in variants):
         raise InputError("variants: is not a list of tables; write each under [[variants]]")
@@ -98,9 +99,12 @@ def load_study(path: Path, models: Sequence[Model]) -> Study:
         raise InputError("variants: got a kind; write it once for all, and a study for each kind of scene")
     try:
         bases = [_merged(entries, variant) for variant in variants]
+        if bases and "kind" not in entries:  # the message names the file
+            read_scene(bases[0], EntriesFile(path=Path(path)))
         keys, cases = _multiplied(bases, frozenset[Key]() if kind is None else kind.lists)
     except RecursionError:
         raise InputError(f"{path}: tables are nested too deep; a scene has two or three levels") from None
+    settings = read_settings(table, models if kind is None else of_kind(models, kind.name))
     return Study(name=cases[0].scene.name, keys=keys, cases=cases, settings=settings)
 
 

@@ -10,8 +10,22 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.foundation.checked_hdf5 import checked_bytes, has_mark, open_checked, open_plain
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.reading.hdf5_content import Content, Numbers, Text
+from roughfilm.contact.foundation.writing.kinds import SIGNATURE, Kind, beginning, beginning_with
+
+SCHEMA = 1
+MARK = b"roughfilm columns, HDF5 behind 512 bytes, sha256 "
+KIND = "a table of roughfilm"
+REMEDY = "name a table.h5 that 'roughfilm batch' wrote"
+
+TEXTS, NUMBERS = Text(shape=("rows",)), Numbers(shape=("rows",), missing=True, infinite=True)
+"""What a file holds for a column."""
+
+TABLE = beginning_with(KIND, MARK, SIGNATURE)
+"""The kind of HDF5 files of a table; those of older versions have no mark."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,10 +48,21 @@ def write_csv(table: Mapping[str, Column], path: Path) -> None:
     A NaN is written as an empty entry. Raises InputError if the file cannot be written.
     """
     header = [name if column.unit in ("", "1") else f"{name} ({column.unit})" for name, column in table.items()]
-    with replacing(path) as scratch, scratch.open("w", encoding="utf-8", newline="") as file:
+    with (
+        replacing(path, table_beginning(header[0])) as scratch,
+        scratch.open("w", encoding="utf-8", newline="") as file,
+    ):
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(header)
         writer.writerows(zip(*([_text(value) for value in column.values] for column in table.values()), strict=True))
+
+
+def table_beginning(heading: str) -> Kind:
+    """The kind of CSV files whose first column has a heading."""
+    return Kind(
+        f"a table that begins with the column {heading!r}",
+        lambda path: beginning(path).split(b"\n")[0].split(b",")[0] == heading.encode(),
+    )
 
 
 def write_hdf5(table: Mapping[str, Column], path: Path) -> None:
@@ -45,11 +70,16 @@ def write_hdf5(table: Mapping[str, Column], path: Path) -> None:
 
     Raises InputError if the file cannot be written.
     """
-    with replacing(path) as scratch, h5py.File(scratch, "w", track_order=True) as file:
+
+    def fill(file: h5py.File) -> None:
+        file.attrs["schema"] = SCHEMA
         for name, column in table.items():
             texts = column.unit == ""
             dataset = file.create_dataset(name, data=list(column.values), dtype=h5py.string_dtype() if texts else float)
             dataset.attrs["unit"] = column.unit
+
+    with replacing(path, TABLE) as scratch:
+        scratch.write_bytes(checked_bytes(MARK, fill, ordered=True))
 
 
 def read_table(path: Path) -> dict[str, NDArray[Any]]:
@@ -82,23 +112,23 @@ def read_columns(path: Path) -> dict[str, Column]:
     InputError
         If the file is missing or is not such a table.
     """
-    if not path.is_file():
-        raise InputError(f"{path}: no such file; name a table.h5 that 'roughfilm batch' wrote")
-    try:
-        with h5py.File(path) as file:
-            if any(item.ndim != 1 for item in file.values()):
-                raise TypeError("a column has one dimension")
-            return {
-                name: Column(
-                    values=(item.asstr()[()] if item.attrs["unit"] == "" else item[()]).tolist(),
-                    unit=str(item.attrs["unit"]),
-                )
-                for name, item in file.items()
-            }
-    except (OSError, LookupError, TypeError, AttributeError) as error:
-        raise InputError(
-            f"{path}: is not a table of roughfilm; name a table.h5 that 'roughfilm batch' wrote"
-        ) from error
+    if has_mark(path, MARK):
+        with open_checked(path, MARK, SCHEMA, REMEDY) as content:
+            return _columns(content)
+    with open_plain(path, KIND, REMEDY) as content:  # of a version that wrote no header
+        if None in content.take({f"{name}@unit": Text(optional=True) for name in content.names("")}).values():
+            raise InputError(f"{path}: is not {KIND}; {REMEDY}")
+        return _columns(content)
+
+
+def _columns(content: Content) -> dict[str, Column]:
+    names = content.names("")
+    units = content.take({f"{name}@unit": Text() for name in names})
+    columns = content.take({name: TEXTS if units[f"{name}@unit"] == "" else NUMBERS for name in names})
+    return {
+        name: Column(values=column if isinstance(column, list) else column.tolist(), unit=units[f"{name}@unit"])
+        for name, column in columns.items()
+    }
 
 
 def _text(value: float | str) -> str:

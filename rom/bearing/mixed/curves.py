@@ -192,14 +192,13 @@ def _given(path: Path, surface: RoughSurface | None, scene: Bearing) -> FactorTa
     if surface is None:
         return table
     (dx, dy), (stiffness, bound) = surface.scaled_spacing(), _solids(scene)
-    settings = source.settings
     compared = (
         ("a highest point", table.peak, surface.peak, "m"),
         ("an rms height", table.rms, surface.rms, "m"),
         ("a spacing along x", source.spacing[0], dx, "m"),
         ("a spacing along y", source.spacing[1], dy, "m"),
-        ("a composite modulus", settings.get("composite_modulus") or math.inf, stiffness, "Pa"),
-        ("a hardness", settings.get("hardness") or math.inf, bound, "Pa"),
+        ("a composite modulus", source.solids.composite_modulus or math.inf, stiffness, "Pa"),
+        ("a hardness", source.solids.hardness or math.inf, bound, "Pa"),
     )
     for name, there, here, unit in compared:
         if not math.isclose(there, here, rel_tol=MATCH_TOLERANCE):

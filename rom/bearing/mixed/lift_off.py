@@ -4,6 +4,7 @@ from math import nan
 
 import scipy
 
+from roughfilm.contact.foundation.ranges import RANGES
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.cavitation.network import State
 
@@ -23,7 +24,8 @@ def lift_off_speed(film: MixedFilm, pressure: float, near: float, *, tolerance: 
     Returns
     -------
     float
-        0 if the load is carried at rest, NaN if no speed up to ``MAX_SPEED_RATIO`` times ``near`` is sufficient.
+        0 if the load is carried at rest or below the smallest of all speeds, NaN if no speed up to ``MAX_SPEED_RATIO``
+        times ``near`` is sufficient.
     """
     separation = film.touching
     if separation >= film.widest:
@@ -45,6 +47,8 @@ def lift_off_speed(film: MixedFilm, pressure: float, near: float, *, tolerance: 
             return nan
     while low == 0.0 or high > 2 * low:
         middle = high / 2
+        if middle < RANGES["m/s"].least:
+            return 0.0
         if excess(middle) < 0:
             low = middle
         else:

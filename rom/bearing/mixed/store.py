@@ -8,14 +8,16 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, write_checked
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.checked_hdf5 import open_if_of, write_checked
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.reading.hdf5_content import Numbers
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
+from roughfilm.rom.studies.table import table_beginning
 
 SCHEMA = 1
 MARK = b"roughfilm stribeck, HDF5 behind 512 bytes, sha256 "
+KIND = "table of Stribeck curves"
 REMEDY = "remove it or choose another place"
 
 UNITS = {
@@ -34,6 +36,7 @@ UNITS = {
 """Units of the numbers of a point; all others are dimensionless."""
 
 NUMBERS = tuple(entry.name for entry in fields(StribeckPoint) if entry.name != "uncertainty")
+ROWS = ("rows",)
 
 
 def save_points(
@@ -76,29 +79,24 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
     InputError
         If the file cannot be read, is damaged, or holds other curves or something else.
     """
-    try:
-        if path.stat().st_size == 0:
+    with open_if_of(inputs, path, MARK, SCHEMA, kind=KIND, remedy=REMEDY) as content:
+        if content is None:
             return ()
-        if not has_mark(path, MARK):
-            raise InputError(f"{path}: holds no Stribeck curves; {REMEDY}")
-        with open_checked(path, MARK, SCHEMA, REMEDY) as file:
-            if file.attrs["digest"] != inputs.digest:
-                difference = inputs.difference(file.attrs["settings"])
-                raise InputError(f"{path}: holds other curves, {difference}; {REMEDY}")
-            columns = {name: file[f"points/{name}"][()] for name in NUMBERS}
-            uncertainties = {name: column[()] for name, column in file.get("uncertainty", {}).items()}
-    except FileNotFoundError:
-        return ()
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
+        columns = content.take({f"points/{name}": Numbers(shape=ROWS) for name in NUMBERS})
+        known = [f"uncertainty/{name}" for name in content.names("uncertainty")]
+        uncertainties = content.take(
+            {name: Numbers(shape=(len(columns["points/speed"]),), missing=True) for name in known}
+        )
     return tuple(
         StribeckPoint(
-            **{name: float(column[row]) for name, column in columns.items()},
+            **{name: columns[f"points/{name}"][row].item() for name in NUMBERS},
             uncertainty={
-                name: float(column[row]) for name, column in uncertainties.items() if not np.isnan(column[row])
+                name.removeprefix("uncertainty/"): column[row].item()
+                for name, column in uncertainties.items()
+                if not np.isnan(column[row])
             },
         )
-        for row in range(len(columns["speed"]))
+        for row in range(len(columns["points/speed"]))
     )
 
 
@@ -112,7 +110,7 @@ def write_csv(path: Path, curves: Sequence[StribeckCurve]) -> None:
         numbers = [repr(float(getattr(point, name))) for name in NUMBERS]
         numbers += [repr(float(point.uncertainty[name])) if name in point.uncertainty else "" for name in uncertain]
         lines.append(", ".join(numbers))
-    with replacing(path) as scratch:
+    with replacing(path, table_beginning(heads[0])) as scratch:
         scratch.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 

@@ -3,12 +3,13 @@
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from threading import Lock
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array, unmasked
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.threads import workers
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.moments import wave_power
@@ -98,7 +99,7 @@ def tabulate_pressed(
     InputError
         If the heights are not a rough surface, or a number is out of range.
     ConvergenceError
-        If a contact or a cell does not converge.
+        If a contact or a cell does not converge, or two loads close the gap equally.
     """
     body = Separations(heights=np.asarray(unmasked("heights", heights), dtype=np.float64))
     open_table = tabulate(
@@ -142,6 +143,12 @@ def tabulate_pressed(
 
     def made(points: Iterable[Point]) -> AsperityTable:
         ordered = sorted((*open_table.points, *points), key=lambda point: point.mean_gap)
+        for one, two in pairwise(ordered):
+            if math.log(two.mean_gap) <= math.log(one.mean_gap):
+                raise ConvergenceError(
+                    f"asperities: loads of {two.load:.3g} and {one.load:.3g} Pa close the gap equally; bring the "
+                    f"hardness of {hardness:.3g} Pa nearer to the composite modulus of {composite_modulus:.3g} Pa"
+                )
         return AsperityTable(factors=replace(open_table, points=tuple(ordered)))
 
     def errors(others: Sequence[Point], point: Point) -> tuple[float, float, float]:

@@ -13,7 +13,7 @@ from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.timing import one_time, working_time
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.homogenization.table.resume import Work, grown_table, key_of, table_of
-from roughfilm.rom.homogenization.table.store import kept_part, save_table
+from roughfilm.rom.homogenization.table.store import Making, kept_part, save_table
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import imported_code, machine, versions
 
@@ -46,7 +46,7 @@ def kept_table(
     inputs: Inputs,
     work: Work,
     *,
-    about: Mapping[str, Any],
+    about: Mapping[str, str],
     progress: Progress,
     known: Sequence[Point] = (),
     foreign: Sequence[Point] = (),
@@ -86,29 +86,29 @@ def kept_table(
 def _complete(path: Path | None, inputs: Inputs) -> FactorTable | None:
     """The complete table of an entry; None if there is none."""
     table, making = _part(path)
-    if path is None or table is None or not making["complete"]:
+    if path is None or table is None or making is None or not making.complete:
         return None
     use(path)
-    return _with_origin(table, inputs, kept=True, stored=True, cpu_s=making["cpu_s"])
+    return _with_origin(table, inputs, kept=True, stored=True, cpu_s=making.cpu_s)
 
 
-def _part(path: Path | None) -> tuple[FactorTable | None, Mapping[str, Any]]:
-    """The points of an entry so far, and the entries on how they were made; a damaged file is removed."""
+def _part(path: Path | None) -> tuple[FactorTable | None, Making | None]:
+    """The points of an entry so far, and how they were made; a damaged file is removed."""
     if path is None or not path.is_file():
-        return None, {}
+        return None, None
     try:
         return kept_part(path)
     except InputError:
         with suppress(OSError):
             path.unlink()
-        return None, {}
+        return None, None
 
 
 def _made(
     path: Path,
     inputs: Inputs,
     work: Work,
-    about: Mapping[str, Any],
+    about: Mapping[str, str],
     known: Sequence[Point],
     foreign: Sequence[Point],
     keep: Callable[[Point], None],
@@ -116,7 +116,7 @@ def _made(
     """The table, made from the points of its entry so far and kept in it."""
     part, making = _part(path)
     before = [*(() if part is None else part.points), *known]
-    spent, started = making.get("cpu_s", 0.0), working_time()
+    spent, started = 0.0 if making is None else making.cpu_s, working_time()
     here = {key_of(point) for point in before}
     more = [point for point in foreign if key_of(point) not in here]
     writable = not more
@@ -129,7 +129,7 @@ def _made(
         if not writable:
             return
         try:
-            save_table(path, inputs, table, {**about, "complete": complete, "cpu_s": cpu_s()})
+            save_table(path, inputs, table, Making(**about, complete=complete, cpu_s=cpu_s()))
         except InputError as error:
             writable = False
             warn(str(error))

@@ -1,23 +1,25 @@
 """Tables of flow factors in HDF5 files with a digest of their inputs."""
 
 import json
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 import h5py
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, write_checked
+from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, open_if_of, write_checked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.reading.hdf5_content import Content, Json, Numbers
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 
 SCHEMA = 4
 MARK = b"roughfilm factors, HDF5 behind 512 bytes, sha256 "
+KIND = "table of flow factors"
 REMEDY = "remove it or choose another place"
 FACTORS = {"mean_gap": "m", "pressure": "m^3", "shear": "m", "couette": "1/m", "shear_couette": "1/m"}
 NUMBERS = {
@@ -36,8 +38,47 @@ NUMBERS = {
     "separation_missed": "1",
 }
 
+ROWS = ("rows",)
+SHAPES = {"pressure": ("rows", 2, 2), "shear": ("rows", 2)}
+LAYOUT = {
+    **{f"points/{name}": Numbers(shape=ROWS) for name in NUMBERS},
+    **{f"points/{name}": Numbers(shape=SHAPES.get(name, ROWS)) for name in FACTORS},
+    **{f"uncertainty/{name}": Numbers(shape=SHAPES.get(name, ROWS), missing=True, infinite=True) for name in FACTORS},
+    "points/iterations": Numbers(shape=ROWS, kind=int),
+    "points/slopes": Numbers(shape=("rows", 7), missing=True),
+    "points/sealed": Numbers(shape=("rows", 2), kind=bool),
+    "@peak": Numbers(),
+    "@rms": Numbers(),
+}
+"""What the file of a table holds, beside its inputs."""
 
-def save_table(path: Path, inputs: Inputs, table: FactorTable, making: Mapping[str, Any] | None = None) -> None:
+
+@dataclass(frozen=True, kw_only=True)
+class Solids:
+    """The settings of a table of a surface in contact: E* and H, Pa; None where there is no contact or plasticity."""
+
+    composite_modulus: float | None = None
+    hardness: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Making:
+    """How a table was made.
+
+    Attributes
+    ----------
+    surface, kind : name of the surface and kind of the table for people.
+    complete : whether the table has all its points.
+    cpu_s : CPU time so far, s.
+    """
+
+    surface: str = ""
+    kind: str = ""
+    complete: bool
+    cpu_s: float
+
+
+def save_table(path: Path, inputs: Inputs, table: FactorTable, making: Making | None = None) -> None:
     """Write a table: ``points/`` has one column per number, narrowest gap first; ``uncertainty/`` has their errors.
 
     Parameters
@@ -45,7 +86,7 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable, making: Mapping[s
     path : the file.
     inputs : the surface and the settings of the table.
     table : the table.
-    making : entries for JSON on how it was made, which :func:`kept_part` returns.
+    making : how it was made, which :func:`kept_part` returns.
 
     Raises
     ------
@@ -62,7 +103,7 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable, making: Mapping[s
         file.attrs["peak"] = table.peak
         file.attrs["rms"] = table.rms
         if making is not None:
-            file.attrs["making"] = json.dumps(making, allow_nan=False)
+            file.attrs["making"] = json.dumps(asdict(making), allow_nan=False)
         for name, unit in NUMBERS.items():
             _write(file, f"points/{name}", np.array([getattr(point, name) for point in points]), unit)
         for group in ("factors", "uncertainty"):
@@ -77,10 +118,10 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable, making: Mapping[s
 
 @dataclass(frozen=True, kw_only=True)
 class TableSource:
-    """The inputs of a table without its heights: ``spacing`` (dx, dy), m, and settings."""
+    """The inputs of a table without its heights: ``spacing`` (dx, dy), m, and ``solids``."""
 
     spacing: tuple[float, float]
-    settings: Mapping[str, Any]
+    solids: Solids
 
 
 def load_table(path: Path) -> FactorTable:
@@ -96,13 +137,10 @@ def load_table(path: Path) -> FactorTable:
 
 def load_table_and_source(path: Path) -> tuple[FactorTable, TableSource]:
     """The table in a file and its inputs; errors are those of :func:`load_table`."""
-    try:
-        _refuse_others(path)
-        with open_checked(path, MARK, SCHEMA, REMEDY) as file:
-            dx, dy = map(float, file.attrs["spacing"])
-            return _table(file), TableSource(spacing=(dx, dy), settings=json.loads(file.attrs["settings"]))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror or error}); name a table of flow factors") from error
+    with _opened(path) as content:
+        stored = content.take({"@spacing": Numbers(shape=(2,)), "@settings": Json(kind=Solids)})
+        dx, dy = stored["@spacing"].tolist()
+        return _table(content), TableSource(spacing=(dx, dy), solids=stored["@settings"])
 
 
 def known_points(path: Path, inputs: Inputs) -> Sequence[Point]:
@@ -113,54 +151,48 @@ def known_points(path: Path, inputs: Inputs) -> Sequence[Point]:
     InputError
         If the file cannot be read, was changed, has a table of other inputs, or is not a table.
     """
-    try:
-        if path.stat().st_size == 0:
-            return ()
-        _refuse_others(path)
-        with open_checked(path, MARK, SCHEMA, REMEDY) as file:
-            if file.attrs["digest"] != inputs.digest:
-                raise InputError(f"{path}: holds another table, {inputs.difference(file.attrs['settings'])}; {REMEDY}")
-            return _table(file).points
-    except FileNotFoundError:
-        return ()
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
+    with open_if_of(inputs, path, MARK, SCHEMA, kind=KIND, remedy=REMEDY) as content:
+        return () if content is None else _table(content).points
 
 
-def kept_part(path: Path) -> tuple[FactorTable, Mapping[str, Any]]:
-    """The points of a file so far, and the entries on how they were made; errors are those of :func:`load_table`."""
-    try:
-        _refuse_others(path)
-        with open_checked(path, MARK, SCHEMA, REMEDY) as file:
-            return _table(file), json.loads(file.attrs["making"])
-    except (OSError, LookupError) as error:
-        raise InputError(f"{path}: cannot be read ({error}); {REMEDY}") from error
+def kept_part(path: Path) -> tuple[FactorTable, Making]:
+    """The points of a file so far, and how they were made; errors are those of :func:`load_table`."""
+    with _opened(path) as content:
+        return _table(content), content.one("@making", Json(kind=Making))
 
 
-def _refuse_others(path: Path) -> None:
+@contextmanager
+def _opened(path: Path) -> Iterator[Content]:
     if not has_mark(path, MARK):
-        raise InputError(f"{path}: is no table of flow factors; {REMEDY}")
+        raise InputError(f"{path}: is no {KIND}; {REMEDY}")
+    with open_checked(path, MARK, SCHEMA, REMEDY) as content:
+        yield content
 
 
 def _write(file: h5py.File, name: str, values: Array, unit: str) -> None:
     file.create_dataset(name, data=values).attrs["unit"] = unit
 
 
-def _table(file: h5py.File) -> FactorTable:
-    numbers = {name: file[f"points/{name}"][()] for name in NUMBERS}
-    sealed, slopes = file["points/sealed"][()], file["points/slopes"][()]
-    own, uncertainty = ({name: file[f"{group}/{name}"][()] for name in FACTORS} for group in ("points", "uncertainty"))
+def _table(content: Content) -> FactorTable:
+    """The table of a file; its gaps increase and are above 0."""
+    stored = content.take(LAYOUT)
+    gaps = stored["points/mean_gap"]
+    if gaps.size < 2 or not (np.diff(gaps, prepend=0.0) > 0).all():
+        raise content.fault("points/mean_gap", "has no two gaps in increasing order")
+    columns = {
+        group: {name: stored[f"{group}/{name}"] for name in (*FACTORS, *more)}
+        for group, more in (("points", NUMBERS), ("uncertainty", ()))
+    }
     points = [
         Point(
-            factors=_factors(own, row, sealed[row]),
-            uncertainty=_factors(uncertainty, row, sealed[row]),
-            iterations=int(numbers["iterations"][row]),
-            slopes=slopes[row],
-            **{name: float(numbers[name][row]) for name in NUMBERS if name != "iterations"},
+            factors=_factors(columns["points"], row, sealed),
+            uncertainty=_factors(columns["uncertainty"], row, sealed),
+            slopes=stored["points/slopes"][row],
+            **{name: columns["points"][name][row].item() for name in NUMBERS},
         )
-        for row in range(sealed.shape[0])
+        for row, sealed in enumerate(stored["points/sealed"])
     ]
-    return FactorTable(points=points, peak=float(file.attrs["peak"]), rms=float(file.attrs["rms"]))
+    return FactorTable(points=points, peak=stored["@peak"], rms=stored["@rms"])
 
 
 def _factors(columns: Mapping[str, Array], row: int, sealed: Array) -> FlowFactors:

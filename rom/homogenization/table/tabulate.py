@@ -8,13 +8,13 @@ from threading import Lock
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array, unmasked
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.threads import workers
 from roughfilm.rom.homogenization.cell import factors_of_correctors
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.flow_factors import Estimated, checked_gap, flow_factors
-from roughfilm.rom.homogenization.table.bisection import bisected
+from roughfilm.rom.homogenization.table.bisection import MAX_POINTS, bisected
 from roughfilm.rom.homogenization.table.factor_table import (
     UNKNOWN_SLOPES,
     FactorTable,
@@ -82,7 +82,7 @@ def tabulate(
     InputError
         If the heights are not those of a rough surface, or the tolerance is not between 1e-6 and 1.
     ConvergenceError
-        If a cell does not converge.
+        If a cell does not converge, or the tolerance is not met in a film of any thickness.
     """
     if not 1e-6 <= tolerance < 1:
         raise InputError(f"tolerance: got {tolerance!r}; it must be 1e-6 to 1")
@@ -120,6 +120,11 @@ def tabulate(
             progress(len(solved) / 40, f"{len(solved)} points")
     while max(table_errors(table := made(solved.values()), solve(body.at_mean_gap(2 * table.widest)))) > tolerance:
         progress(len(solved) / (len(solved) + 20), f"{len(solved)} points")
+        if len(solved) > MAX_POINTS:
+            raise ConvergenceError(
+                f"table of flow factors: at a mean gap of {table.widest:.3g} m, {table.widest / body.rms:.3g} times "
+                f"the rms height, roughness still acts; loosen the tolerance of {tolerance:g}"
+            )
     points = bisected(
         made(solved.values()).points,
         place=lambda point: float(np.log(point.mean_gap)),

@@ -2,20 +2,22 @@
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, write_checked
+from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, open_if_of, write_checked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.reading.hdf5_content import Content, Numbers, Text
 from roughfilm.rom.seal.leakage.percolation import Side, Threshold
 
 SCHEMA = 1
 MARK = b"roughfilm leakage, HDF5 behind 512 bytes, sha256 "
+KIND = "series of leakage"
 REMEDY = "remove it or choose another place"
 
 SOUGHT = ("direct_x", "direct_y", "homogenized_x", "homogenized_y")
@@ -59,6 +61,9 @@ class Row:
 
 
 NUMBERS = tuple(entry.name for entry in fields(Row))
+
+LAYOUT = {f"series/{name}": Numbers(shape=("rows",), missing=name != "load") for name in NUMBERS}
+"""What a file holds for its rows."""
 
 UNITS = {"load": "Pa", "mean_gap": "m", "valley_depth": "m", "cpu_s": "s"} | {
     name + more: "m^3" for name in SOUGHT for more in ("", "_uncertainty")
@@ -112,45 +117,40 @@ def stored_series(path: Path, inputs: Inputs) -> LeakageSeries:
     InputError
         If the file cannot be read, was changed, has a series of other inputs, or is not a series.
     """
-    try:
-        if path.stat().st_size == 0:
-            return LeakageSeries(rows={}, thresholds={})
-        if not has_mark(path, MARK):
-            raise InputError(f"{path}: is no series of leakage; {REMEDY}")
-        with open_checked(path, MARK, SCHEMA, REMEDY) as file:
-            if file.attrs["digest"] != inputs.digest:
-                raise InputError(f"{path}: holds another series, {inputs.difference(file.attrs['settings'])}; {REMEDY}")
-            return _series(file)
-    except FileNotFoundError:
-        return LeakageSeries(rows={}, thresholds={})
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror or error}); choose another place") from error
+    with open_if_of(inputs, path, MARK, SCHEMA, kind=KIND, remedy=REMEDY) as content:
+        return LeakageSeries(rows={}, thresholds={}) if content is None else _series(content)
 
 
 def load_series(path: Path) -> LeakageSeries:
     """The series in a file, whatever its inputs; InputError if the file cannot be read or is not a series."""
-    try:
-        if not has_mark(path, MARK):
-            raise InputError(f"{path}: is no series of leakage; name a leakage.h5 of roughfilm leakage")
-        with open_checked(path, MARK, SCHEMA, REMEDY) as file:
-            return _series(file)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror or error}); name a leakage.h5") from error
+    if not has_mark(path, MARK):
+        raise InputError(f"{path}: is no {KIND}; name a leakage.h5 of roughfilm leakage")
+    with open_checked(path, MARK, SCHEMA, REMEDY) as content:
+        return _series(content)
 
 
-def _series(file: h5py.File) -> LeakageSeries:
-    columns = [file[f"series/{name}"][()].tolist() for name in NUMBERS]
+def kept_rows(path: Path) -> tuple[Sequence[Row], str]:
+    """The rows in a file and the name of its surface; errors are those of :func:`load_series`."""
+    with open_checked(path, MARK, SCHEMA, REMEDY) as content:
+        return [*_series(content).rows.values()], content.one("@surface", Text(optional=True)) or ""
+
+
+def _series(content: Content) -> LeakageSeries:
+    columns = [column.tolist() for column in content.take(LAYOUT).values()]
     rows = [Row(**dict(zip(NUMBERS, numbers, strict=True))) for numbers in zip(*columns, strict=True)]
-
-    def side(group: h5py.Group, end: str) -> Side | None:
-        load = float(group.attrs[f"{end}_load"])
-        area = float(group.attrs[f"{end}_area_fraction"])
-        return None if math.isnan(load) else Side(load=load, area_fraction=area)
-
-    groups = {name: file[f"thresholds/{name}"] for name in SOUGHT if f"thresholds/{name}" in file}
     return LeakageSeries(
         rows={row.load: row for row in rows},
         thresholds={
-            name: Threshold(open=side(group, "open"), sealed=side(group, "sealed")) for name, group in groups.items()
+            name: Threshold(open=_side(content, name, "open"), sealed=_side(content, name, "sealed"))
+            for name in SOUGHT
+            if content.holds(f"thresholds/{name}")
         },
     )
+
+
+def _side(content: Content, name: str, end: str) -> Side | None:
+    """One side of the bracket of a threshold; None if it is not known."""
+    load, area = content.take(
+        {f"thresholds/{name}@{end}_{number}": Numbers(missing=True) for number in ("load", "area_fraction")}
+    ).values()
+    return None if math.isnan(load) else Side(load=load, area_fraction=area)

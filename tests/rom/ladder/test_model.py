@@ -1,13 +1,17 @@
 """The contract that every rung keeps, and the lattice they form."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from roughfilm import foamcases, rom
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import kinds
 from roughfilm.rom.ladder.model import Effect, best, find, ladder, of_kind, one_effect_away
 from roughfilm.rom.ladder.request import Request
+from roughfilm.rom.ladder.result import Field, SolverRun
 
 ALL = ladder(rom, foamcases)
 MODELS = of_kind(ALL, "pocket")
@@ -114,3 +118,53 @@ def test_resolutions_are_sorted_and_hold_the_default():
         assert list(offered.series) == sorted(set(offered.series))
         assert offered.default in offered.series
         assert offered.least <= offered.series[0] <= offered.series[-1] <= offered.most
+
+
+def answering(change=lambda result: result, cost=1.0):
+    """The model reynolds of pockets with another answer."""
+    known = find(MODELS, "pocket", "reynolds")
+    return replace(
+        known,
+        cost=lambda scene, resolution: cost,
+        compute=lambda model, scene, request, progress: change(known.compute(model, scene, request, progress)),
+    )
+
+
+def overflowing(result):
+    square = float(np.float64(1e300) * np.float64(1e300))
+    return replace(result, quantities={"load": Quantity(value=square, unit="N")})
+
+
+UNSOUND = {
+    "overflow": overflowing,
+    "division": lambda result: replace(result, quantities={"load": Quantity(value=1.0 / (result is None), unit="N")}),
+    "quantity": lambda result: replace(result, quantities={"load": Quantity(value=float("nan"), unit="N")}),
+    "residual": lambda result: replace(result, numerics=replace(result.numerics, residual=float("inf"))),
+    "field": lambda result: replace(result, fields={"film": Field(values=np.array([1.0, np.inf]), unit="m")}),
+}
+
+
+@pytest.mark.parametrize("fault", UNSOUND)
+def test_a_number_that_is_not_finite_is_an_error_in_one_line_and_never_a_warning(fault, make_scene):
+    with pytest.raises(ConvergenceError, match=r"^reynolds: .*; check the units") as caught:
+        answering(UNSOUND[fault]).solve(make_scene(0.3, 0.25, 1.0))
+    assert "\n" not in str(caught.value)
+
+
+def test_what_is_unknown_is_left_out(make_scene):
+    def change(result):
+        quantities = {"load": Quantity(value=1.0, unit="N", uncertainty=float("inf"))}
+        runs = (SolverRun(iterations=1, residual=float("nan"), imbalance=0.5),)
+        numerics = replace(result.numerics, details={"balance": float("inf"), "films": 3.0}, runs=runs)
+        return replace(result, quantities=quantities, numerics=numerics, expected_error={"load": float("inf")})
+
+    result = answering(change).solve(make_scene(0.3, 0.25, 1.0))
+    assert result.quantities["load"].uncertainty is None
+    assert result.expected_error == {}
+    assert result.numerics.details == {"films": 3.0}
+    assert (result.numerics.runs[0].residual, result.numerics.runs[0].imbalance) == (None, 0.5)
+
+
+def test_a_request_that_would_take_for_months_is_refused(make_scene):
+    with pytest.raises(InputError, match=r"^resolution: .* would take reynolds more than 1e\+09 s of CPU"):
+        answering(cost=1e10).solve(make_scene(0.3, 0.25, 1.0))

@@ -6,6 +6,7 @@ from dataclasses import replace
 import h5py
 import numpy as np
 import pytest
+from forging import forge
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
@@ -110,13 +111,35 @@ def test_an_old_result_without_warnings_is_read(tmp_path):
     assert (found.warnings, found.numerics.runs, found["A11"].uncertainty) == ((), (), None)
 
 
-@pytest.mark.parametrize("schema", [1, 4])
-def test_results_of_an_unknown_schema_are_refused(result, tmp_path, schema):
-    save(result, tmp_path / "r.h5")
-    with h5py.File(tmp_path / "r.h5", "a") as file:
-        file.attrs["schema"] = schema
-    with pytest.raises(InputError, match=f"has schema {schema}; this version reads 2 and 3"):
-        load(tmp_path / "r.h5")
+def test_results_of_an_unknown_schema_are_refused(result, tmp_path):
+    save(result, tmp_path / "new.h5")
+    forge(tmp_path / "new.h5", lambda file: file.attrs.update(schema=99))
+    with pytest.raises(InputError, match="has schema 99; this version reads 4, solve again"):
+        load(tmp_path / "new.h5")
+    write_schema_2(tmp_path / "old.h5", {"scene": {"kind": "rough_gap"}})
+    with h5py.File(tmp_path / "old.h5", "a") as file:
+        file.attrs["schema"] = 1
+    with pytest.raises(InputError, match="has schema 1; this version reads 2 to 4, solve again"):
+        load(tmp_path / "old.h5")
+
+
+def test_results_of_schema_3_which_had_no_header_are_read(result, tmp_path):
+    save(result, tmp_path / "new.h5")
+    with h5py.File(tmp_path / "new.h5") as new, h5py.File(tmp_path / "old.h5", "w") as old:
+        old.attrs.update(new.attrs, schema=3)
+        for name in new:
+            new.copy(name, old)
+    assert as_entries(load(tmp_path / "old.h5")) == as_entries(result)
+
+
+def test_a_result_with_any_byte_changed_is_refused(result, tmp_path):
+    path = tmp_path / "r.h5"
+    save(result, path)
+    whole = path.read_bytes()
+    for place in np.random.default_rng(851).integers(0, len(whole), 100):
+        path.write_bytes(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
+        with pytest.raises(InputError, match=r"was damaged or changed|is not a result"):
+            load(path)
 
 
 def test_provenance_suffices_to_compute_it_again(result, tmp_path):
@@ -155,7 +178,7 @@ def test_a_result_replaces_a_result_and_no_other_file(result, tmp_path, name):
     else:
         path.write_text("kind = 'pocket'", encoding="utf-8")
     before = path.read_bytes()
-    with pytest.raises(InputError, match="would be replaced"):
+    with pytest.raises(InputError, match="exists and is not a result"):
         save(result, path)
     assert path.read_bytes() == before
     path.unlink()
@@ -168,23 +191,29 @@ def test_a_truncated_result_is_refused(result, tmp_path):
     path = tmp_path / "r.h5"
     save(result, path)
     path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
-    with pytest.raises(InputError, match="is not a result"):
+    with pytest.raises(InputError, match="was damaged or changed since it was written; solve again"):
         load(path)
 
 
 def test_a_result_with_the_wrong_parts_is_refused(result, tmp_path):
     path = tmp_path / "r.h5"
-    save(result, path)
-    with h5py.File(path, "a") as file:
+
+    def flat(file):
         del file["quantities"]
         file["quantities"] = 7.0
-    with pytest.raises(InputError, match="is not a result"):
-        load(path)
-    save(result, path)
-    with h5py.File(path, "a") as file:
-        file.attrs["provenance"] = "[]"
-    with pytest.raises(InputError, match="is not a result"):
-        load(path)
+
+    for change in (
+        flat,
+        lambda file: file.attrs.update(provenance="[]"),
+        lambda file: file.attrs.update(provenance='{"scene": {"kind": "unheard-of"}}'),
+        lambda file: file.attrs.__delitem__("model"),
+        lambda file: file["quantities/load_plus"].attrs.__delitem__("unit"),
+        lambda file: file["quantities/load_plus"].write_direct(np.array(np.nan)),
+    ):
+        save(result, path)
+        forge(path, change)
+        with pytest.raises(InputError, match=r"is damaged or incomplete \('.*'.*\); solve again$"):
+            load(path)
 
 
 def test_an_empty_hdf5_file_is_refused(tmp_path):
@@ -197,8 +226,11 @@ def test_one_time_costs_are_read_back_and_older_files_have_none(result, tmp_path
     dear = replace(result, numerics=replace(result.numerics, one_time={"table": 187.0, "compilation": 4.0}))
     save(dear, tmp_path / "dear.h5")
     assert load(tmp_path / "dear.h5").numerics.one_time == {"table": 187.0, "compilation": 4.0}
-    with h5py.File(tmp_path / "dear.h5", "r+") as file:
+
+    def older(file):
         numerics = json.loads(file.attrs["numerics"])
         del numerics["one_time"]
         file.attrs["numerics"] = json.dumps(numerics)
+
+    forge(tmp_path / "dear.h5", older)
     assert load(tmp_path / "dear.h5").numerics.one_time == {}

@@ -82,9 +82,9 @@ def test_a_file_says_its_units(tmp_path):
         ([[0, 870], [1e7, 880], [1e7, 890]], "row 3 after .* must both increase"),
         ([[1e5, 870], [1e7, 880], [2e7, 890]], "must be the density at pressure 0"),
         ([[0, 870], [1e7, 880]], "got 2 rows"),
-        ([[0, 870], [1e7, float("nan")], [2e7, 890]], "must be finite"),
+        ([[0, 870], [1e7, float("nan")], [2e7, 890]], "got nan kg/m\\^3 as density of row 2"),
         ([[0, 870], [1e7], [2e7, 890]], "write pressure and density"),
-        ("nowhere.csv", "nowhere.csv.*is not there"),
+        ("nowhere.csv", "nowhere.csv.*no such file"),
         (7, "got 7; name a file"),
     ],
 )

@@ -153,7 +153,7 @@ shapes = st.one_of(
         lambda w, d, s: {"profile": "splined", "width": f"{w!r} mm", "depth": f"{d!r} mm", "shift": f"{s * w!r} mm"},
         widths,
         depths,
-        st.floats(-0.49, 0.49),
+        st.floats(-0.49, 0.49).filter(lambda s: s == 0 or abs(s) > 1e-9),
     ),
     st.builds(
         lambda places, d: {"profile": "points", "points": [[1e-4 * s, d * 1e-5 * (n % 3)] for n, s in places]},

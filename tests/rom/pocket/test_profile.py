@@ -35,6 +35,15 @@ def test_points_are_read_beside_the_scene_and_stay_in_it(scene_file, tmp_path):
     assert read_scene(written) == scene
 
 
+@pytest.mark.parametrize("noise", [6.1e-23, -3.7e-23])
+def test_a_rounding_error_of_zero_counts_as_zero(tmp_path, noise):
+    rows = [(0.0, 0.0), (1e-5, 1e-7), (2e-5, noise), (3e-5, 1e-7), (4e-5, noise)]
+    zero = tuple((place, 0.0 if depth == noise else depth) for place, depth in rows)
+    np.save(tmp_path / "groove.npy", rows)
+    (tmp_path / "groove.csv").write_text("position (m), depth (m)\n" + "".join(f"{x}, {y}\n" for x, y in rows))
+    assert checked(rows) == checked(str(tmp_path / "groove.npy")) == checked(str(tmp_path / "groove.csv")) == zero
+
+
 def test_an_override_is_sought_in_the_current_directory(scene_file, tmp_path, monkeypatch):
     (tmp_path / "here").mkdir()
     (tmp_path / "here" / "other.csv").write_text(GOOD.replace("10", "12"))
@@ -113,7 +122,7 @@ def test_npy_is_in_metres(scene_file, tmp_path, kind):
         (b"position (um), depth (um)\n0,0\n1,1,1\n2,0\n", "line 3: got 3 columns"),
         (b"position (um), depth (um)\n0,0\n1,nan\n2,0\n", "line 3: got 'nan um'"),
         (b"position (um), depth (um)\n0,0\n1,inf\n2,0\n", "line 3: got 'inf um'"),
-        (b"position (um), depth (um)\n0,0\n1,1e999\n2,0\n", "line 3: got '1e999 um'.* not finite"),
+        (b"position (um), depth (um)\n0,0\n1,1e999\n2,0\n", "line 3: got '1e999 um'; a length must be"),
         (b"position (um), depth (um)\n0,0\n1,x\n2,0\n", "line 3: got"),
         (b"position (um), depth (um)\n0,0\n1,1\n0.5,1\n2,0\n", "at point 3 after .*; positions must increase"),
         (b"position (um), depth (um)\n0,0\n1,0\n1,1\n2,0\n", "points at 1e-06 m, numbers 2 and 3; .* finite slope"),
@@ -140,12 +149,12 @@ def test_every_fault_of_a_file_is_one_line_that_names_it(scene_file, tmp_path, c
         (lambda path: np.save(path, np.zeros((4, 2), complex)), "got complex128"),
         (
             lambda path: np.save(path, np.array([[0, 0], [1, np.nan], [2, 0]])),
-            r"got \[1\.0, nan\] as point 2; both numbers must be finite",
+            r"got nan m as depth of point 2; it must be 0 or 1e-22 to 1e\+13 in size",
         ),
-        (lambda path: np.save(path, np.array([[{}, 1]]), allow_pickle=True), "is no NPY array"),
-        (lambda path: path.write_bytes(b"position (um), depth (um)\n"), "is no NPY array"),
-        (lambda path: path.write_bytes(b"\x93NUMPY\x01\x00\xff\xff{"), "is no NPY array"),
-        (lambda path: path.write_bytes(b""), "is no NPY array"),
+        (lambda path: np.save(path, np.array([[{}, 1]]), allow_pickle=True), "got object of shape"),
+        (lambda path: path.write_bytes(b"position (um), depth (um)\n"), "is no whole NPY array"),
+        (lambda path: path.write_bytes(b"\x93NUMPY\x01\x00\xff\xff{"), "is no whole NPY array"),
+        (lambda path: path.write_bytes(b""), "is no whole NPY array"),
     ],
 )
 def test_every_fault_of_an_array_is_one_line_that_names_it(scene_file, tmp_path, write, words):
@@ -162,16 +171,16 @@ def test_an_array_whose_header_claims_more_than_there_is_takes_no_memory(scene_f
         claimed = {"descr": "<f8", "fortran_order": False, "shape": (10**13, 2)}
         np.lib.format.write_array_header_1_0(file, claimed)
         file.write(bytes(64))
-    with pytest.raises(InputError, match="is no NPY array"):
+    with pytest.raises(InputError, match="is no whole NPY array"):
         load_scene(scene_file, [f"geometry.points={path}"])
 
 
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        ("absent.csv", "is not there"),
+        ("absent.csv", "no such file"),
         (".", "is no file"),
-        ("~nobody-of-this-name/x.csv", "a home"),
+        ("~nobody-of-this-name/x.csv", "leads nowhere"),
         ("x" * 5000, "be read"),
     ],
 )

@@ -159,9 +159,9 @@ def test_what_is_thinner_than_the_smallest_gap_is_closed_for_every_model():
         (changed(flow={"pressure_gradient": "1 Pa/m"}), "flow: got both"),
         (changed(flow={"reynolds_number": 1e13}), "flow: got Reynolds number 1e"),
         (changed(load={"pressure": "1 MPa"}), "solid: is missing"),
-        (changed(lubricant={"viscosity": "1e300 Pa*s"}), "flow: .* overflow; check the units"),
-        (changed(lubricant={"viscosity": "1e-200 Pa*s"}), "flow: .* overflow; check the units"),
-        (changed(geometry={"mean_gap": "1e120 m"}), "flow: .* overflow; check the units"),
+        (changed(lubricant={"viscosity": "1e300 Pa*s"}), "lubricant.viscosity: .*; a viscosity must be 1e-16 to"),
+        (changed(lubricant={"viscosity": "1e-200 Pa*s"}), "lubricant.viscosity: .*; a viscosity must be 1e-16 to"),
+        (changed(geometry={"mean_gap": "1e120 m"}), "geometry.mean_gap: .*; a length must be 1e-22 to"),
         (changed(**{**PRESSED, "load": {"pressure": None}}), "load"),
         (changed(**{**PRESSED, "geometry": {"surface": BUMPS, "amplitude": None, "wavelength": None}}), "leave mean_"),
         (

@@ -124,6 +124,13 @@ def test_a_case_whose_uncertainty_exceeds_its_value_is_not_ranked():
     )
 
 
+def test_a_case_that_is_left_out_is_not_ranked_unless_all_are():
+    sweep = swept("load_per_width", [1.0, 9.0, 2.0])
+    left = answer_of(sweep, "reynolds", "load_per_width", (1,))
+    assert (left.order, left.unranked) == ((2, 0), ())
+    assert answer_of(sweep, "reynolds", "load_per_width", (0, 1, 2)).order == (1, 2, 0)
+
+
 def test_where_every_case_is_worthless_all_are_ranked_and_the_error_is_said():
     answer = answered("load_per_width", [1.0, 9.0], np.array([2.0, 20.0]))
     assert answer.order == (1, 0)

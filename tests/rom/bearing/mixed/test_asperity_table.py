@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics.exact.westergaard import Westergaard
 from roughfilm.contact.mechanics.press import Press
@@ -175,6 +175,11 @@ def test_a_table_is_read_back_from_its_file(elastic, tmp_path):
     assert np.array_equal(again.contact_pressure(alpha), elastic.contact_pressure(alpha))
     assert np.array_equal(again(alpha).along, elastic(alpha).along)
     assert np.array_equal(again.pressure_uncertainty(alpha), elastic.pressure_uncertainty(alpha))
+
+
+def test_a_hardness_at_which_no_load_moves_the_walls_is_an_error():
+    with pytest.raises(ConvergenceError, match=r"^asperities: loads of .* close the gap equally; .* of 0\.0001 Pa"):
+        tabulate_pressed(HEIGHTS[::3, ::3], (6e-6, 4.5e-6), MODULUS, hardness=1e-4, tolerance=0.05)
 
 
 def test_a_table_without_loads_is_refused(elastic):
