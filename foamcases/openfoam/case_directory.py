@@ -1,14 +1,16 @@
 """Write the directory of a case completely or not at all, with a README, a shell script and a card to read it by."""
 
 import json
-import tempfile
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from roughfilm.contact.foundation.errors import InputError
-from roughfilm.foamcases.openfoam.installation import OPEN_MPI
+from roughfilm.contact.foundation.errors import InputError, unwritable
+from roughfilm.contact.foundation.reading.json_entries import from_json
+from roughfilm.contact.foundation.reading.regular import read_bytes
+from roughfilm.contact.foundation.writing.scratch import scratch_directory
+from roughfilm.foamcases.openfoam.dialect import Dialect
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -16,29 +18,18 @@ if TYPE_CHECKING:
 CARD = "case.json"
 """Name of the card: the file of the options with which a case was written."""
 
+MAX_CARD_BYTES = 1_000_000
+"""Largest size of a card that is read, bytes."""
+
 SomeCard = TypeVar("SomeCard")
-
-SERIAL = "simpleFoam > log.simpleFoam 2>&1"
-PARALLEL = (
-    "decomposePar > log.decomposePar 2>&1 &&\n"
-    "    env {environment} \\\n"
-    "    mpirun -np {processes} simpleFoam -parallel > log.simpleFoam 2>&1 &&\n"
-    "    reconstructPar -latestTime > log.reconstructPar 2>&1"
-)
-
-SHELL = """\
-#!/bin/sh
-# Checks the mesh and runs the case. The mesh is already in constant/polyMesh: no blockMesh is needed.
-cd "$(dirname "$0")" || exit 1
-if [ -z "$WM_PROJECT_DIR" ]; then
-    WM_PROJECT_DIR=$(dpkg -L openfoam | sed -n 's|/etc/controlDict$||p' | head -n 1)
-    export WM_PROJECT_DIR
-fi
-"""
-
 
 TOLERANCES = (1e-10, 1e-2)
 """Least and greatest tolerance allowed: the residual at which a run may end."""
+
+
+def written_for(dialect: Dialect) -> str:
+    """The paragraph of a README that says which OpenFOAM the case is for."""
+    return f"\nThe case is written for {dialect.releases}; for another, write it again in the other dialect.\n"
 
 
 def check_tolerance(tolerance: float) -> None:
@@ -46,12 +37,6 @@ def check_tolerance(tolerance: float) -> None:
     least, most = TOLERANCES
     if not least <= tolerance <= most:
         raise InputError(f"tolerance: got {tolerance}; it must be {least:g} to {most:g}")
-
-
-def commands(processes: int) -> str:
-    """The shell commands that run simpleFoam in a case directory, with mpirun for more than one process."""
-    settings = " ".join(f"{name}={value}" for name, value in OPEN_MPI.items())
-    return SERIAL if processes == 1 else PARALLEL.format(processes=processes, environment=settings)
 
 
 def write_whole(directory: Path, fill: Callable[[Path], None]) -> None:
@@ -74,13 +59,13 @@ def write_whole(directory: Path, fill: Callable[[Path], None]) -> None:
         if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):
             raise InputError(f"{directory}: is not an empty directory; name another")
         directory.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=f".{directory.name}-", dir=directory.parent) as place:
-            scratch = Path(place) / directory.name
+        with scratch_directory(beside=directory) as place:
+            scratch = place / directory.name
             scratch.mkdir()
             fill(scratch)
             scratch.replace(directory)
     except OSError as error:
-        raise InputError(f"{directory}: cannot be written ({error.strerror}); choose another place") from error
+        raise unwritable(directory, error) from error
 
 
 def write_papers(directory: Path, *, readme: str, allrun: str, card: "DataclassInstance") -> None:
@@ -94,6 +79,6 @@ def write_papers(directory: Path, *, readme: str, allrun: str, card: "DataclassI
 def read_card(directory: Path, kind: type[SomeCard]) -> SomeCard:
     """The card of a case, an object of the class ``kind``; InputError if the directory holds no such card."""
     try:
-        return kind(**json.loads((directory / CARD).read_text(encoding="utf-8")))
-    except (OSError, ValueError, TypeError) as error:
+        return from_json(read_bytes(directory / CARD, MAX_CARD_BYTES, "generate the case again"), kind)
+    except ValueError as error:
         raise InputError(f"{directory}: holds no {CARD} of this version; generate the case again") from error

@@ -3,6 +3,7 @@
 OpenFOAM runs code in a dictionary (``#calc``, ``#codeStream``), so no text of a user is written into one.
 """
 
+import shutil
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from roughfilm.foamcases.openfoam.block_mesh import Patch
+from roughfilm.foamcases.openfoam.dialect import Dialect
 
 Dictionary = tuple[str, Mapping[str, Any]]
 """The class and the entries of a file of OpenFOAM."""
@@ -22,6 +24,15 @@ LINEAR_TOLERANCE = 1e-5
 
 ROUND_OFF = 1e-15
 """Least residual that a linear solver can reach."""
+
+START_SCHEME = "upwind"
+"""Advection scheme with which a second try starts."""
+
+START_TOLERANCE = 1e-2
+"""Residual up to which a second try runs with ``START_SCHEME``."""
+
+SECOND_TRY = "second_try"
+"""Directory of a case with the dictionaries of a second try: ``start`` is run first, then ``rest``."""
 
 ADVECTION = {
     "linear_upwind": ("bounded", "Gauss", "linearUpwind", "grad(U)"),
@@ -43,12 +54,21 @@ SIDES = (
 
 
 def write_dictionaries(
-    directory: Path, *, viscosity: float, tolerance: float, scheme: str, processes: int, relaxation: float
+    directory: Path,
+    *,
+    dialect: Dialect,
+    viscosity: float,
+    tolerance: float,
+    scheme: str,
+    processes: int,
+    relaxation: float,
 ) -> None:
     """Write the files in ``system``, ``constant`` and ``0`` of a channel whose upper wall slides at speed 1.
 
     Parameters
     ----------
+    dialect
+        The dialect of OpenFOAM in which the case is written.
     viscosity
         Kinematic viscosity over film thickness times sliding speed: 1 / Re.
     tolerance
@@ -60,7 +80,7 @@ def write_dictionaries(
     relaxation
         The relaxation of velocity in SIMPLEC.
     """
-    write_files(directory, _dictionaries(viscosity, tolerance, scheme, processes, relaxation))
+    write_files(directory, _dictionaries(dialect, viscosity, tolerance, scheme, processes, relaxation))
 
 
 def write_files(directory: Path, files: Mapping[str, Dictionary]) -> None:
@@ -104,12 +124,35 @@ def strengthen(directory: Path) -> None:
         solution["solvers", "U", "tolerance"] = ROUND_OFF
 
 
+def write_second_try(directory: Path, *, scheme: str, tolerance: float) -> None:
+    """Write the dictionaries of a second try of a case that was written, for its script ``Allrun``.
+
+    Parameters
+    ----------
+    directory : the directory of the case.
+    scheme : its advection scheme, a key of ``ADVECTION``.
+    tolerance : the residual at which it ends.
+    """
+    for stage, by, until in (("start", START_SCHEME, START_TOLERANCE), ("rest", scheme, tolerance)):
+        system = directory / SECOND_TRY / stage / "system"
+        system.mkdir(parents=True)
+        for name in ("fvSchemes", "fvSolution"):
+            shutil.copyfile(directory / "system" / name, system / name)
+        strengthen(system.parent)
+        change_scheme(system.parent, scheme=by, tolerance=until)
+
+
 def control(iterations: int) -> Dictionary:
-    """The dictionary ``system/controlDict``: simpleFoam starts from the latest fields and writes its last ones."""
+    """The dictionary ``system/controlDict``: simpleFoam starts from the latest fields and writes its last ones.
+
+    The solver is that of ``foamRun``, which is simpleFoam from openfoam.org 11 on. The precision is that of the values
+    that functions log; openfoam.org ignores the entry of the same name in a function.
+    """
     return (
         "dictionary",
         {
             "application": "simpleFoam",
+            "solver": "incompressibleFluid",
             "startFrom": "latestTime",
             "startTime": 0,
             "stopAt": "endTime",
@@ -118,6 +161,7 @@ def control(iterations: int) -> Dictionary:
             "writeControl": "timeStep",
             "writeInterval": iterations,
             "writeFormat": "binary",
+            "writePrecision": 12,
             "timeFormat": "general",
             "runTimeModifiable": False,
         },
@@ -146,6 +190,7 @@ def schemes(scheme: str) -> Dictionary:
 
 def solution(
     *,
+    dialect: Dialect,
     tolerance: float,
     linear: float,
     relaxation: float,
@@ -157,6 +202,7 @@ def solution(
 
     Parameters
     ----------
+    dialect : the dialect of OpenFOAM in which the case is written.
     tolerance : the initial residual at which the iteration stops.
     linear : the residual at which a linear solver stops, over the tolerance.
     relaxation : the relaxation of velocity.
@@ -189,7 +235,10 @@ def solution(
                 "pRefValue": 0,
                 "residualControl": dict.fromkeys(controlled, tolerance),
             },
-            "relaxationFactors": {"fields": {"p": 1.0}, "equations": {"U": relaxation}},
+            "relaxationFactors": {
+                "fields": {"p": dialect.pressure_relaxation(relaxation)},
+                "equations": {"U": relaxation},
+            },
         },
     )
 
@@ -197,13 +246,16 @@ def solution(
 def liquid(viscosity: float) -> dict[str, Dictionary]:
     """The dictionaries in ``constant`` of a laminar flow with the given kinematic viscosity, by their paths."""
     return {
-        "constant/transportProperties": ("dictionary", {"transportModel": "Newtonian", "nu": viscosity}),
+        "constant/transportProperties": (
+            "dictionary",
+            {"transportModel": "Newtonian", "viscosityModel": "constant", "nu": viscosity},
+        ),
         "constant/turbulenceProperties": ("dictionary", {"simulationType": "laminar"}),
     }
 
 
 def _dictionaries(
-    viscosity: float, tolerance: float, scheme: str, processes: int, relaxation: float
+    dialect: Dialect, viscosity: float, tolerance: float, scheme: str, processes: int, relaxation: float
 ) -> dict[str, Dictionary]:
     from foamlib import DimensionSet  # slow to import
 
@@ -211,6 +263,7 @@ def _dictionaries(
         "system/controlDict": control(ITERATIONS),
         "system/fvSchemes": schemes(scheme),
         "system/fvSolution": solution(
+            dialect=dialect,
             tolerance=tolerance,
             linear=LINEAR_TOLERANCE,
             relaxation=relaxation,

@@ -9,13 +9,14 @@ from pathlib import Path
 from typing import Protocol
 
 from roughfilm.contact.foundation.errors import Outcome
-from roughfilm.foamcases.openfoam.dictionaries import change_scheme, strengthen
-from roughfilm.foamcases.openfoam.program import execute, failure, succeed
+from roughfilm.foamcases.openfoam.dictionaries import START_SCHEME, START_TOLERANCE, change_scheme, strengthen
+from roughfilm.foamcases.openfoam.program import SEE_LOG, Ended, execute, failure, succeed
 from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
 from roughfilm.rom.ladder.model import Progress
 
-START_SCHEME = "upwind"
-START_TOLERANCE = 1e-2
+CONVERGED = "SIMPLE solution converged in"
+"""Words of a log of simpleFoam whose residuals met the tolerance."""
+
 RECIPE = (
     f"started by {START_SCHEME} up to a residual of {START_TOLERANCE:g}, then with one corrector for skewed cells and "
     "velocity solved to round-off"
@@ -112,12 +113,11 @@ def iterate(
             shutil.rmtree(path)
     strengthen(directory)
     change_scheme(directory, scheme=START_SCHEME, tolerance=START_TOLERANCE)
-    second = _simple_foam(directory, asked, judged, "log.start", progress)
-    if second.outcome is Outcome.CONVERGED:
+    start, rest = _simple_foam(directory, asked, judged, "log.start", progress), None
+    if start.outcome is Outcome.CONVERGED:
         change_scheme(directory, scheme=asked.scheme, tolerance=asked.tolerance)
         rest = _simple_foam(directory, asked, judged, "log.retry", progress, settled, decomposed=True)
-        second = replace(rest, iterations=second.iterations + rest.iterations, cpu_s=second.cpu_s + rest.cpu_s)
-    return (first, replace(second, recipe=RECIPE))
+    return (first, second(start, rest))
 
 
 def _simple_foam(
@@ -155,19 +155,44 @@ def _simple_foam(
 
     ended = execute(directory, command, log_name, given_up)
     residuals.read()
-    if (stopping and ended.code == 0) or "SIMPLE solution converged in" in ended.log:
+    return replace(tried(ended, residuals, asked.tolerance, settled=stopping), cpu_s=cpu + ended.cpu_s)
+
+
+def tried(ended: Ended, residuals: Residuals, tolerance: float, *, settled: bool) -> Try:
+    """The try that a run of simpleFoam was.
+
+    Parameters
+    ----------
+    ended : the end of simpleFoam.
+    residuals : the residuals of its log.
+    tolerance : the residual at which it was to end.
+    settled : whether it was ended because the flow had settled.
+
+    Raises
+    ------
+    ConvergenceError
+        If simpleFoam stopped in error.
+    """
+    if (settled and ended.code == 0) or CONVERGED in ended.log:
         outcome = Outcome.CONVERGED
     elif ended.code in FLOATING_POINT:
         outcome = Outcome.DIVERGED
     elif ended.code == 0 or residuals.stagnant:
-        outcome = residuals.outcome(asked.tolerance)
+        outcome = residuals.outcome(tolerance)
     else:
-        raise failure(f"{command[0]} stopped with code {ended.code}; look into the log below", ended.log)
+        raise failure(f"simpleFoam stopped with code {ended.code}; {SEE_LOG}", ended.log)
     return Try(
         recipe="",
         outcome=outcome,
         iterations=len(residuals.greatest),
         residual=residuals.greatest[-1] if residuals.greatest else math.nan,
-        cpu_s=cpu + ended.cpu_s,
+        cpu_s=ended.cpu_s,
         log=ended.log,
     )
+
+
+def second(start: Try, rest: Try | None) -> Try:
+    """The second try of a flow, which ``RECIPE`` describes, from its start and, if that converged, its rest."""
+    if rest is None:
+        return replace(start, recipe=RECIPE)
+    return replace(rest, iterations=start.iterations + rest.iterations, cpu_s=start.cpu_s + rest.cpu_s, recipe=RECIPE)

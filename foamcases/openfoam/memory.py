@@ -1,8 +1,7 @@
 """Estimate the memory that a mesh needs before the mesh is made."""
 
-from pathlib import Path
-
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.reading.limits import memory_available
 
 RUN_BYTES = 1700.0
 """Peak memory of simpleFoam per cell, bytes, measured at 0.4 and 2 million cells."""
@@ -26,18 +25,6 @@ def memory_estimate(columns: int, layers: int, *, run: bool = True) -> float:
     run : whether the case is run too.
     """
     return BASE_BYTES + columns * layers * max(WRITE_BYTES, RUN_BYTES if run else 0.0)
-
-
-def memory_available(table: Path = Path("/proc/meminfo")) -> float:
-    """The memory that programs can still use on this machine, bytes; infinite where ``table`` does not state it."""
-    try:
-        for line in table.read_text(encoding="ascii").splitlines():
-            name, _, value = line.partition(":")
-            if name == "MemAvailable":
-                return 1024.0 * int(value.split()[0])
-    except (OSError, ValueError, IndexError):
-        pass
-    return float("inf")
 
 
 def check_memory(columns: tuple[int, int], layers: int, *, run: bool) -> None:

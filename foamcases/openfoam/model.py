@@ -1,6 +1,5 @@
 """Models that run OpenFOAM: they write, run and read a case, in one call or step by step."""
 
-import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -10,12 +9,15 @@ from typing import TYPE_CHECKING, Any, Generic, Unpack
 
 from typing_extensions import TypeVar
 
+from roughfilm.contact.foundation.arrays import finite_arithmetic
+from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.foamcases.openfoam.case_directory import TOLERANCES
-from roughfilm.foamcases.openfoam.installation import availability
+from roughfilm.foamcases.openfoam.dialect import Dialect
+from roughfilm.foamcases.openfoam.installation import availability, dialect_here
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import About, Applicability, Model, Progress, Resolutions, SceneT, silent
 from roughfilm.rom.ladder.request import CheckedRequest, Request
-from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.ladder.result import Result, with_finite_numbers
 
 if TYPE_CHECKING:
     from roughfilm.foamcases.openfoam.run import CaseRun
@@ -25,8 +27,8 @@ CREEPING = 1e-6
 
 RunT = TypeVar("RunT", bound="CaseRun", default=Any)
 
-CaseWriter = Callable[[SceneT, Path, CheckedRequest, float], None]
-"""Function write(scene, directory, request, reynolds_number) that writes the case of a scene."""
+CaseWriter = Callable[[SceneT, Path, CheckedRequest, float, Dialect], None]
+"""Function write(scene, directory, request, reynolds_number, dialect) that writes the case of a scene."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,9 +43,10 @@ class Cases(Generic[SceneT, RunT]):
     tolerance : default residual at which a run ends.
     most_processes : most_processes(scene, resolution), the largest number of processes.
     cost : cost(scene, resolution), expected CPU seconds.
-    write : write(scene, directory, request, reynolds_number), which writes the case of a scene.
+    write : write(scene, directory, request, reynolds_number, dialect), which writes the case of a scene.
     write_to_run : the function with the same parameters that writes a case to be run at once on this machine.
     run : run(directory, progress), which runs a case and returns a ``CaseRun``.
+    kept_run : kept_run(directory), the ``CaseRun`` of a case that its script ``Allrun`` ran.
     read : read(model, scene, directory, run), which returns the result of a case that was run.
     """
 
@@ -57,6 +60,7 @@ class Cases(Generic[SceneT, RunT]):
     write: CaseWriter[SceneT]
     write_to_run: CaseWriter[SceneT]
     run: Callable[[Path, Progress], RunT]
+    kept_run: Callable[[Path], RunT]
     read: Callable[[Model[SceneT], SceneT, Path, RunT], Result]
 
 
@@ -83,15 +87,25 @@ class CaseModel(Model[SceneT], Generic[SceneT, RunT]):
     cases: Cases[SceneT, RunT]
     reynolds_number: Callable[[SceneT], float]
 
-    def write(self, scene: SceneT, directory: Path, request: Request = Request()) -> None:
+    def write(
+        self, scene: SceneT, directory: Path, request: Request = Request(), *, dialect: Dialect | None = None
+    ) -> None:
         """Write the case of a scene completely or not at all.
+
+        Parameters
+        ----------
+        scene : the scene.
+        directory : the directory of the case, which is made; it may exist if it is empty.
+        request : numerical options.
+        dialect : the dialect of the case; None for that of the OpenFOAM of this machine, or ``COM`` without one.
 
         Raises
         ------
         InputError
             For an option outside the range that the model allows, or a directory that is not empty.
         """
-        self.cases.write(scene, directory, self.checked(scene, request), self.reynolds_number(scene))
+        checked = self.checked(scene, request)
+        self.cases.write(scene, directory, checked, self.reynolds_number(scene), dialect or dialect_here())
 
     def run(self, directory: Path, progress: Progress = silent) -> RunT:
         """Run a case that this model wrote, and verify the fields that the run leaves in the directory.
@@ -103,12 +117,26 @@ class CaseModel(Model[SceneT], Generic[SceneT, RunT]):
 
         Raises
         ------
+        InputError
+            If the directory holds no case of this model, or one for another dialect of OpenFOAM.
         UnavailableError
             If OpenFOAM is not on this machine.
         ConvergenceError
             If the mesh has faults or the flow does not converge.
         """
         return self.cases.run(directory, progress)
+
+    def kept_run(self, directory: Path) -> RunT:
+        """Read the run of a case of this model that its script ``Allrun`` ran; OpenFOAM is not needed.
+
+        Raises
+        ------
+        InputError
+            If the directory holds no case of this model.
+        ConvergenceError
+            If the mesh has faults, the flow did not converge, or the fields on disk were not verified.
+        """
+        return self.cases.kept_run(directory)
 
     def read(self, scene: SceneT, directory: Path, run: RunT) -> Result:
         """Read the result of a case of this scene that was run.
@@ -118,9 +146,10 @@ class CaseModel(Model[SceneT], Generic[SceneT, RunT]):
         InputError
             If the directory holds no case of this scene.
         ConvergenceError
-            If the directory holds no finished fields.
+            If the directory holds no finished fields, or a number of the result is not finite.
         """
-        return self.cases.read(self, scene, directory, run)
+        with finite_arithmetic(self.name):
+            return with_finite_numbers(self.cases.read(self, scene, directory, run))
 
 
 def openfoam_model(
@@ -178,9 +207,9 @@ def solve(
 ) -> Result:
     """Write, run and read a case in a temporary directory; the times of the run include those of this process."""
     wall, cpu = time.perf_counter(), time.thread_time()
-    with tempfile.TemporaryDirectory(prefix="roughfilm-") as place:
-        directory = Path(place) / model.name
-        cases.write_to_run(scene, directory, request, reynolds_number(scene))
+    with scratch_directory() as place:
+        directory = place / model.name
+        cases.write_to_run(scene, directory, request, reynolds_number(scene), dialect_here())
         ran = cases.run(directory, progress)
         spent = time.thread_time() - cpu
         whole = replace(ran, cpu_s=ran.cpu_s + spent, wall_s=time.perf_counter() - wall)

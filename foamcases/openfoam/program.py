@@ -1,19 +1,23 @@
 """Run a program of OpenFOAM in a case to its end: keep its log, measure its CPU time, leave no process running."""
 
+import errno
 import os
 import re
+import shutil
 import signal
 import subprocess
+import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from roughfilm.contact.foundation.child_processes import terminate_with_parent
-from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
-from roughfilm.foamcases.openfoam.installation import environment
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome, unwritable, writing
+from roughfilm.contact.foundation.writing.scratch import SHARED_MEMORY, scratch_directory
+from roughfilm.foamcases.openfoam.installation import Installation, installation
 
 POLL_INTERVAL_S = 0.02
 """Time between two checks of a running program, s."""
@@ -23,6 +27,21 @@ STOP_TIME_S = 5.0
 
 LOG_TAIL_LINES = 12
 """Number of last lines of a log that an error quotes."""
+
+FILE_TOO_LARGE = (-signal.SIGXFSZ, 128 + signal.SIGXFSZ)
+"""Exit codes of a program, and of mpirun, after a write beyond the limit of the size of a file."""
+
+LEAST_SPACE_BYTES = 1 << 16
+"""Space that must be left during a run, bytes: OpenFOAM ends without an error where a disk is full."""
+
+MPI_SPACE_BYTES = 1 << 24
+"""Space that mpirun needs for temporary files, bytes: Open MPI takes 8.2 MB, and can wait for ever without them."""
+
+SPACE_INTERVAL_S = 1.0
+"""Time between two checks of the space that is left, s."""
+
+MPI_PLACES = ("TMPDIR", "OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_btl_sm_backing_directory")
+"""Environment variables that say where Open MPI puts its files and its shared memory."""
 
 TRACE = re.compile(r"#\d+ ")
 """Pattern of a line of the stack trace that OpenFOAM prints after a floating-point exception."""
@@ -51,33 +70,75 @@ def execute(directory: Path, command: Sequence[str], log_name: str, watch: Watch
     command : the program and its arguments.
     log_name : name of the log.
     watch : called while the command runs; the command is stopped when it returns True.
+
+    Raises
+    ------
+    InputError
+        If the disk is full while the command runs or at its end, there is no space for the files of mpirun, or the
+        limit of the size of a file is reached.
     """
-    log = directory / log_name
+    log, here = directory / log_name, installation()
     process = None
-    try:
-        with log.open("wb") as output, uninterrupted():
-            process = subprocess.Popen(
-                [*terminate_with_parent(), *command],
-                cwd=directory,
-                env=environment(),
-                stdin=subprocess.DEVNULL,
-                stdout=output,
-                stderr=output,
-            )
-        while True:
-            ended, status, used = os.wait4(process.pid, os.WNOHANG)
-            if ended:
-                break
-            if watch():
-                process.terminate()
-            time.sleep(POLL_INTERVAL_S)
-    except BaseException:
-        if process is not None:
-            _stop(process)
-        raise
+    with _environment(here, command) as environment:
+        if command[0] == "mpirun":
+            _refuse_full(Path(environment.get("TMPDIR") or "/tmp"), MPI_SPACE_BYTES)
+        try:
+            with log.open("wb") as output, uninterrupted():
+                process = subprocess.Popen(
+                    [*terminate_with_parent(), *here.command, *command],
+                    cwd=directory,
+                    env={**environment, "PWD": str(directory.absolute())},  # OpenFOAM believes it
+                    stdin=subprocess.DEVNULL,
+                    stdout=output,
+                    stderr=output,
+                )
+            checked = time.monotonic()
+            while True:
+                ended, status, used = os.wait4(process.pid, os.WNOHANG)
+                if ended:
+                    break
+                if time.monotonic() > checked + SPACE_INTERVAL_S:
+                    _refuse_full(directory)
+                    checked = time.monotonic()
+                if watch():
+                    process.terminate()
+                time.sleep(POLL_INTERVAL_S)
+        except BaseException:
+            if process is not None:
+                _stop(process)
+            raise
     process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode in FILE_TOO_LARGE:
+        raise unwritable(directory, OSError(errno.EFBIG, os.strerror(errno.EFBIG)))
+    _refuse_full(directory)
     text = log.read_text(encoding="utf-8", errors="replace")
     return Ended(code=process.returncode, log=text, cpu_s=used.ru_utime + used.ru_stime)
+
+
+def _refuse_full(directory: Path, size: int = LEAST_SPACE_BYTES) -> None:
+    """Raise InputError if there is no space for another file of a size, bytes, in a directory."""
+    with writing(directory), tempfile.TemporaryFile(dir=directory) as probe:
+        os.posix_fallocate(probe.fileno(), 0, size)
+
+
+@contextmanager
+def _environment(here: Installation, command: Sequence[str]) -> Iterator[Mapping[str, str]]:
+    """Yield the environment of a command; files that MPI leaves when it is killed are in a scratch directory.
+
+    A command put in front, such as that of a container, may not see the directory and has its own.
+    """
+    if command[0] != "mpirun":
+        yield here.environment
+        return
+    if here.command:
+        _refuse_full(Path(os.environ.get("TMPDIR") or "/tmp"), MPI_SPACE_BYTES)
+        yield here.environment
+        return
+    roomy = os.access(SHARED_MEMORY, os.W_OK) and shutil.disk_usage(SHARED_MEMORY).free > 2 * MPI_SPACE_BYTES
+    beside = SHARED_MEMORY / "mpi" if roomy else None
+    with scratch_directory(beside) as place:
+        _refuse_full(place, MPI_SPACE_BYTES)
+        yield {**here.environment, **dict.fromkeys(MPI_PLACES, str(place))}
 
 
 @contextmanager
@@ -100,11 +161,19 @@ def uninterrupted() -> Iterator[None]:
             signal.raise_signal(number)
 
 
+SEE_LOG = "see its log in the directory of the case, or the end of the log by 'roughfilm solve'"
+"""Remedy for a program that stopped: a generated case keeps its log, and ``solve`` prints the end of it."""
+
+
 def succeed(directory: Path, command: Sequence[str], log_name: str) -> Ended:
     """Run a command as ``execute`` does; ConvergenceError if its exit code is not 0."""
-    ended = execute(directory, command, log_name)
+    return succeeded(execute(directory, command, log_name), command[0])
+
+
+def succeeded(ended: Ended, program: str) -> Ended:
+    """The end of a program; ConvergenceError if its exit code is not 0."""
     if ended.code != 0:
-        raise failure(f"{command[0]} stopped with code {ended.code}; look into the log below", ended.log)
+        raise failure(f"{program} stopped with code {ended.code}; {SEE_LOG}", ended.log)
     return ended
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roughfilm.contact.foundation.errors import Outcome
+from roughfilm.contact.foundation.reading.regular import opened
 
 PATIENCE = 500
 """Number of iterations in which the residual must halve at least once; otherwise the run is stopped.
@@ -60,14 +61,14 @@ class Residuals:
 
     def read(self) -> None:
         """Read the part of the log that was written since the last call."""
-        with self._log.open("rb") as file:
+        with opened(self._log, "run the case again") as file:
             file.seek(self._position)
             text = file.read()
         end = 0
         for match in _SOLVED.finditer(text):
             end = match.end()
-            name, value = match[1].decode(), float(match[2])
-            self._found[name] = value
+            name = match[1].decode()
+            self._found[name] = _number(match[2])
             if name == "p" and self._judged.main in self._found:  # else it is the pressure of a second corrector
                 self._finish(self._found)
                 self._found = {}
@@ -94,3 +95,11 @@ class Residuals:
         if not self.stagnant:
             return Outcome.UNFINISHED
         return Outcome.STALLED if max(self.main[-PATIENCE // 2 :]) <= tolerance else Outcome.UNSTEADY
+
+
+def _number(word: bytes) -> float:
+    """The number of a word of a log; NaN for a word that is none."""
+    try:
+        return float(word)
+    except ValueError:
+        return math.nan

@@ -1,14 +1,15 @@
 """Run a case: check its mesh, iterate its flow, and verify the fields on disk."""
 
 import math
-import shutil
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from roughfilm.contact.foundation.errors import Outcome, UnavailableError
-from roughfilm.foamcases.openfoam.installation import availability
+from roughfilm.contact.foundation.errors import InputError, Outcome, UnavailableError
+from roughfilm.foamcases.openfoam.dialect import dialect_named
+from roughfilm.foamcases.openfoam.installation import installation
 from roughfilm.foamcases.openfoam.iterate import Asked, Settled, Try, iterate
-from roughfilm.foamcases.openfoam.program import Ended, failure, succeed
+from roughfilm.foamcases.openfoam.kept import ended, kept_tries, latest_iteration
+from roughfilm.foamcases.openfoam.program import Ended, failure, succeed, succeeded
 from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
 from roughfilm.rom.ladder.model import Progress
 
@@ -30,12 +31,31 @@ class CaseRun:
     warnings: tuple[str, ...]
 
 
-def ready(processes: int) -> str:
-    """The version of OpenFOAM; UnavailableError if it is missing, or if mpirun is and there are several processes."""
-    here = availability()
-    if not here.available:
+def ready(directory: Path, dialect: str, processes: int) -> str:
+    """The version of OpenFOAM that can run a case.
+
+    Parameters
+    ----------
+    directory : the directory of the case.
+    dialect : name of the dialect in which the case is written.
+    processes : number of processes.
+
+    Raises
+    ------
+    InputError
+        If the case is written in another dialect than that of the OpenFOAM of this machine.
+    UnavailableError
+        If OpenFOAM is missing, or if mpirun is and there are several processes.
+    """
+    here = installation()
+    if here.release is None:
         raise UnavailableError(here.detail)
-    if processes > 1 and shutil.which("mpirun") is None:
+    if dialect != here.release.dialect.name:
+        raise InputError(
+            f"{directory}: is written for {dialect_named(dialect).releases}, and here is {here.release}; "
+            f"write the case again in the dialect {here.release.dialect.name}"
+        )
+    if processes > 1 and not here.has("mpirun"):
         raise UnavailableError("no mpirun on the PATH; take one process, or: sudo apt-get install openmpi-bin")
     return here.detail
 
@@ -56,7 +76,18 @@ def check_mesh(
     ConvergenceError
         If checkMesh reports a fault with none of the words in ``tolerated``.
     """
-    mesh = succeed(directory, ["checkMesh"], "log.checkMesh")
+    return sound(succeed(directory, ["checkMesh"], "log.checkMesh"), tolerated=tolerated, remedy=remedy)
+
+
+def kept_mesh(
+    directory: Path, *, tolerated: tuple[str, ...] = (), remedy: str = "change the resolution or the shape of the walls"
+) -> Ended:
+    """The log of the mesh check that ``Allrun`` ran; parameters and errors as those of :func:`check_mesh`."""
+    return sound(succeeded(ended(directory, "log.checkMesh"), "checkMesh"), tolerated=tolerated, remedy=remedy)
+
+
+def sound(mesh: Ended, *, tolerated: tuple[str, ...], remedy: str) -> Ended:
+    """The log of a mesh check; ConvergenceError if it reports a fault with none of the words in ``tolerated``."""
     faults = [line for line in mesh.log.splitlines() if line.lstrip().startswith("***")]
     accepted = bool(faults) and all(any(words in fault for words in tolerated) for fault in faults)
     if "Mesh OK" not in mesh.log and not accepted:
@@ -92,20 +123,46 @@ def converge(
     """
     from foamlib import FoamFile  # slow to import
 
-    tries = iterate(directory, asked, judged, progress, settled)
+    tries = converged(iterate(directory, asked, judged, progress, settled))
+    cpu = 0.0
+    if asked.processes > 1:
+        cpu = succeed(directory, ["reconstructPar", "-latestTime"], "log.reconstructPar").cpu_s
+
+    control = FoamFile(directory / "system" / "controlDict")
+    end_time = control["endTime"]
+    control["endTime"] = tries[-1].iterations + 1
+    verified = succeed(directory, ["simpleFoam"], "log.verify")
+    control["endTime"] = end_time
+    return checked(directory, asked, judged, tries, replace(verified, cpu_s=verified.cpu_s + cpu))
+
+
+def kept_flow(directory: Path, asked: Asked, judged: Judged, settled: Settled | None = None) -> Checked:
+    """A flow that ``Allrun`` ran and verified; parameters and errors as those of :func:`converge`."""
+    tries = converged(kept_tries(directory, asked, judged, settled))
+    if latest_iteration(directory) < tries[-1].iterations:
+        raise failure(
+            f"{directory}: the fields of iteration {tries[-1].iterations} are missing; run the case again", ""
+        )
+    return checked(directory, asked, judged, tries, succeeded(ended(directory, "log.verify"), "simpleFoam"))
+
+
+def converged(tries: tuple[Try, ...]) -> tuple[Try, ...]:
+    """The tries of a flow; ConvergenceError with the outcome of each and a remedy if the last did not converge."""
     last = tries[-1]
     if last.outcome is not Outcome.CONVERGED:
         message = "; ".join([*map(str, tries), REMEDIES[last.outcome]])
         raise failure(message, last.log, outcome=last.outcome, iterations=last.iterations)
-    cpu = sum(one.cpu_s for one in tries)
-    if asked.processes > 1:
-        cpu += succeed(directory, ["reconstructPar", "-latestTime"], "log.reconstructPar").cpu_s
+    return tries
 
-    control = FoamFile(directory / "system" / "controlDict")
-    end_time = control["endTime"]
-    control["endTime"] = last.iterations + 1
-    verified = succeed(directory, ["simpleFoam"], "log.verify")
-    control["endTime"] = end_time
+
+def checked(directory: Path, asked: Asked, judged: Judged, tries: tuple[Try, ...], verified: Ended) -> Checked:
+    """The flow that converged in the last of its tries, if the process ``verified`` finds a small enough residual.
+
+    Raises
+    ------
+    ConvergenceError
+        If the residual in ``log.verify`` is larger than twice ``judged.slack`` times the tolerance.
+    """
     found_residuals = Residuals(directory / "log.verify", judged)
     found_residuals.read()
     residual = max(found_residuals.greatest, default=math.inf)
@@ -115,4 +172,4 @@ def converge(
             f"the fields on disk leave a residual of {residual:.1e}, not {allowed:.0e}; run again",
             verified.log,
         )
-    return Checked(residual=residual, cpu_s=cpu + verified.cpu_s, tries=tries)
+    return Checked(residual=residual, cpu_s=sum(one.cpu_s for one in tries) + verified.cpu_s, tries=tries)

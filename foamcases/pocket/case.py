@@ -6,9 +6,12 @@ from pathlib import Path
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.foamcases.openfoam.allrun import allrun
 from roughfilm.foamcases.openfoam.block_mesh import write_block
-from roughfilm.foamcases.openfoam.case_directory import SHELL, commands, write_papers, write_whole
-from roughfilm.foamcases.openfoam.dictionaries import SIDES, write_dictionaries
+from roughfilm.foamcases.openfoam.case_directory import write_papers, write_whole, written_for
+from roughfilm.foamcases.openfoam.dialect import Dialect
+from roughfilm.foamcases.openfoam.dictionaries import SIDES, write_dictionaries, write_second_try
+from roughfilm.foamcases.openfoam.residuals import Judged
 from roughfilm.foamcases.pocket.mesh.orthogonal import orthogonal
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.pocket.scene import Pocket
@@ -23,15 +26,6 @@ UNRELAXED_COLUMNS = 12.0
 
 MIN_RELAXATION = 0.85
 """Least relaxation of velocity in SIMPLEC."""
-
-ALLRUN = """\
-checkMesh > log.checkMesh 2>&1 &&
-    {commands}
-status=$?
-grep -h "Mesh OK" log.checkMesh
-grep -h "SIMPLE solution converged" log.simpleFoam
-exit $status
-"""
 
 README = """\
 One period of a groove under a sliding wall, for OpenFOAM's simpleFoam. Run it with ./Allrun
@@ -55,6 +49,7 @@ class Card:
     tolerance: float
     scheme: str
     processes: int
+    dialect: str
 
     @property
     def relaxation(self) -> float:
@@ -75,7 +70,15 @@ def vertices_of(scene: Pocket, resolution: int) -> Array:
     return np.stack([np.pad(plane, ((0, 0), (0, 0), (0, 1)), constant_values=z) for z in (0.0, 1.0)], axis=2)
 
 
-def write_case(scene: Pocket, directory: Path, request: CheckedRequest, reynolds_number: float) -> None:
+def write_case(
+    scene: Pocket,
+    directory: Path,
+    request: CheckedRequest,
+    reynolds_number: float,
+    dialect: Dialect,
+    *,
+    run: bool = False,
+) -> None:
     """Write the case of a scene completely or not at all.
 
     Parameters
@@ -85,6 +88,8 @@ def write_case(scene: Pocket, directory: Path, request: CheckedRequest, reynolds
     request : numerical options. The resolution is the number of mesh columns along the film, about, as columns begin
         and end at every corner of the gap; there are a fifth as many layers. The scheme is a key of ``ADVECTION``.
     reynolds_number : the Reynolds number ρ u Ly/η at which the case is run; the model chooses it.
+    dialect : the dialect of OpenFOAM in which the case is written.
+    run : whether the case is to be run by this library at once, which needs no dictionaries of a second try.
 
     Raises
     ------
@@ -101,19 +106,27 @@ def write_case(scene: Pocket, directory: Path, request: CheckedRequest, reynolds
         tolerance=request.tolerance,
         scheme=scheme,
         processes=processes,
+        dialect=dialect.name,
     )
     readme = README.format(pressure=scene.pressure_unit * reynolds_number, speed=scene.speed, film=scene.geometry.film)
+    readme += written_for(dialect)
 
     def fill(place: Path) -> None:
         write_block(vertices, SIDES, place)
         write_dictionaries(
             place,
+            dialect=dialect,
             viscosity=1 / reynolds_number,
             tolerance=request.tolerance,
             scheme=scheme,
             processes=processes,
             relaxation=card.relaxation,
         )
-        write_papers(place, readme=readme, allrun=SHELL + ALLRUN.format(commands=commands(processes)), card=card)
+        if not run:
+            write_second_try(place, scheme=scheme, tolerance=request.tolerance)
+        script = allrun(
+            {".": Judged()}, tolerance=request.tolerance, processes=processes, dialect=dialect, settles=False
+        )
+        write_papers(place, readme=readme, allrun=script, card=card)
 
     write_whole(directory, fill)

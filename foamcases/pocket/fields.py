@@ -1,13 +1,15 @@
 """Read the fields of a finished pocket case as arrays over columns and layers."""
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.foamcases.openfoam.case_directory import read_card
+from roughfilm.foamcases.openfoam.fields import internal_field, last_fields, points
 from roughfilm.foamcases.pocket.case import Card
 from roughfilm.foamcases.pocket.mesh.cells import centres
 
@@ -85,22 +87,19 @@ def read_channel(directory: Path) -> Channel:
     ConvergenceError
         If the directory holds no finished fields, or fields that are not finite.
     """
-    from foamlib import FoamCase, FoamFile  # slow to import
-
     card = read_card(directory, Card)
-    shape = (card.columns, card.layers)
+    shape, nodes = (card.columns, card.layers), (card.columns + 1, card.layers + 1, 2)
     try:
-        last = FoamCase(directory)[-1]
-        velocity = np.asarray(last["U"].internal_field, dtype=float)
-        pressure = np.asarray(last["p"].internal_field, dtype=float)
-        points = np.asarray(FoamFile(directory / "constant" / "polyMesh" / "points")[None], dtype=float)
-        velocity = velocity.reshape(*shape, 3, order="F")[..., :2]
-        pressure = pressure.reshape(shape, order="F") * card.reynolds_number
-        vertices = points.reshape(shape[0] + 1, shape[1] + 1, 2, 3, order="F")[:, :, 0, :2]
-    except (OSError, LookupError, ValueError) as error:
-        raise ConvergenceError(f"{directory}: holds no finished fields; run the case first") from error
-    if not (np.isfinite(velocity).all() and np.isfinite(pressure).all()):
-        raise ConvergenceError(f"{directory}: the fields are not finite; lower the Reynolds number or refine the mesh")
+        last, cells = last_fields(directory), card.columns * card.layers
+        velocity = internal_field(last / "U", 3, cells).reshape(*shape, 3, order="F")[..., :2]
+        pressure = internal_field(last / "p", 1, cells).reshape(shape, order="F") * card.reynolds_number
+        corners = points(directory / "constant" / "polyMesh" / "points", math.prod(nodes))
+    except InputError as error:
+        raise ConvergenceError(f"{directory}: holds no finished fields ({error})") from error
+    vertices = corners.reshape(*nodes, 3, order="F")[:, :, 0, :2]
+    up, down = vertices[1:, 1:] - vertices[:-1, :-1], vertices[:-1, 1:] - vertices[1:, :-1]
+    if not (up[..., 0] * down[..., 1] - up[..., 1] * down[..., 0] > 0).all():
+        raise InputError(f"{directory}: a cell of the mesh has no area; generate the case again")
     channel = Channel(vertices=vertices, velocity=velocity, pressure=pressure)
     first, last_column = np.diff(vertices[:, -1, 0])[[0, -1]] / 2
     wall = channel.wall_pressure

@@ -1,5 +1,7 @@
 """The cases of a pocket in OpenFOAM as data: their resolutions and cost, and how they are written, run and read."""
 
+from functools import partial
+
 from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.foamcases.openfoam.model import Cases
 from roughfilm.rom.ladder.model import Resolutions
@@ -23,7 +25,8 @@ CASES = Cases(
     most_processes=lambda _scene, resolution: resolution // 2,
     cost=cost,
     write=deferred("foamcases.pocket.case", "write_case"),
-    write_to_run=deferred("foamcases.pocket.case", "write_case"),
+    write_to_run=partial(deferred("foamcases.pocket.case", "write_case"), run=True),
     run=deferred("foamcases.pocket.run", "run_case"),
+    kept_run=deferred("foamcases.pocket.run", "kept_run"),
     read=deferred("foamcases.pocket.cases", "read"),
 )

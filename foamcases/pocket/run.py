@@ -6,8 +6,19 @@ from pathlib import Path
 
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.iterate import Try
+from roughfilm.foamcases.openfoam.kept import release_of, wall_time
+from roughfilm.foamcases.openfoam.program import Ended
 from roughfilm.foamcases.openfoam.residuals import Judged
-from roughfilm.foamcases.openfoam.run import CaseRun, check_mesh, converge, ready, remarks
+from roughfilm.foamcases.openfoam.run import (
+    CaseRun,
+    Checked,
+    check_mesh,
+    converge,
+    kept_flow,
+    kept_mesh,
+    ready,
+    remarks,
+)
 from roughfilm.foamcases.pocket.case import Card
 from roughfilm.rom.ladder.model import Progress, silent
 
@@ -32,7 +43,7 @@ def run_case(directory: Path, progress: Progress = silent) -> Run:
     Raises
     ------
     InputError
-        If the directory holds no pocket case of this version.
+        If the directory holds no pocket case of this version, or one for another dialect of OpenFOAM.
     UnavailableError
         If OpenFOAM is not on this machine, or mpirun is not and the case needs several processes.
     ConvergenceError
@@ -40,14 +51,27 @@ def run_case(directory: Path, progress: Progress = silent) -> Run:
         satisfy the equations; with the outcome of the run and the last lines of its log.
     """
     card = read_card(directory, Card)
-    version = ready(card.processes)
+    version = ready(directory, card.dialect, card.processes)
     wall = time.perf_counter()
     mesh = check_mesh(directory)
     checked = converge(directory, card, Judged(), progress)
+    return _run(mesh, checked, time.perf_counter() - wall, version)
+
+
+def kept_run(directory: Path) -> Run:
+    """Read the run of a case that its script ``Allrun`` ran; errors as those of :func:`run_case`, save OpenFOAM's."""
+    card = read_card(directory, Card)
+    version = release_of(directory, card.dialect)
+    mesh = kept_mesh(directory)
+    checked = kept_flow(directory, card, Judged())
+    return _run(mesh, checked, wall_time(directory), version)
+
+
+def _run(mesh: Ended, checked: Checked, wall_s: float, version: str) -> Run:
     return Run(
         residual=checked.residual,
         cpu_s=mesh.cpu_s + checked.cpu_s,
-        wall_s=time.perf_counter() - wall,
+        wall_s=wall_s,
         version=version,
         tries=checked.tries,
         warnings=remarks(mesh),

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.foamcases.openfoam.allrun import allrun
 from roughfilm.foamcases.openfoam.block_mesh import write_block
-from roughfilm.foamcases.openfoam.case_directory import SHELL, commands, write_papers, write_whole
-from roughfilm.foamcases.openfoam.dictionaries import write_files
+from roughfilm.foamcases.openfoam.case_directory import write_papers, write_whole, written_for
+from roughfilm.foamcases.openfoam.dialect import Dialect
+from roughfilm.foamcases.openfoam.dictionaries import write_files, write_second_try
 from roughfilm.foamcases.openfoam.memory import check_memory
 from roughfilm.foamcases.openfoam.residuals import Judged
 from roughfilm.foamcases.rough_gap.dictionaries import (
@@ -35,19 +36,6 @@ RESIDUAL_SLACK = 300.0
 LAYERS_PER_COLUMN = 1 / 4
 """Number of cells across the gap over the number along its longer side, unless the scene gives the former."""
 
-RUN = """\
-first={first}
-(cd $first && checkMesh > log.checkMesh 2>&1) || exit 1
-grep -h "Mesh OK" $first/log.checkMesh
-status=0
-for drive in {drives}; do
-    (cd $drive &&
-    {commands}) || status=1
-    grep -H "SIMPLE solution converged" $drive/log.simpleFoam || echo "$drive: ended after all of its iterations"
-done
-exit $status
-"""
-
 README = """\
 One period of a rough gap, for OpenFOAM's simpleFoam. Run it with ./Allrun
 
@@ -62,9 +50,9 @@ which a smooth gap carries on average; nu = 1 / Re. So
   x, y, z [m] = x, y, z * {length:.12g}
 "lower" is the wall at rest, "contact" the edges of what the walls' contact closes; all else repeats itself.
 
-The mean velocity of all cells is in postProcessing/flow/0/volFieldValue.dat of each case, by iteration. A flow has
-settled when it no longer changes; residuals need not fall with it, being of waves as short as the cells, and a case may
-well end after all of its iterations. Times the volume of the mesh over the area of its period that mean velocity is
+The mean velocity of all cells is in postProcessing/flow/0/volFieldValue.dat of each case, by iteration. Allrun ends a
+flow when it has settled: the mean velocity no longer changes. Residuals of waves as short as the cells may remain.
+Times the volume of the mesh over the area of its period that mean velocity is
   along, across   (A11, A21) and (A12, A22) over h^3, times {excess:.12g} by the layers: divide by that
   sliding         (B1, B2) over h
 """
@@ -78,6 +66,7 @@ class GapCard:
     ----------
     layers : number of cells across the gap.
     cells : number of cells of the mesh.
+    dialect : name of the dialect of OpenFOAM in which the cases are written.
     judged : for each drive, the fields that are not constant, the main velocity first.
     relaxation : for each drive, the relaxation of velocity.
     """
@@ -89,6 +78,7 @@ class GapCard:
     tolerance: float
     scheme: str
     processes: int
+    dialect: str
     judged: dict[str, list[str]]
     relaxation: dict[str, float]
 
@@ -112,6 +102,9 @@ def columns_of(scene: RoughGap, resolution: int) -> tuple[int, int]:
     nx, ny = (max(2, round(points * resolution / max(shape))) for points in shape)
     return nx, ny
 
+
+CLOSED = "Contact seals this gap both ways on this mesh: there is no flow to compute. Allrun only says so.\n"
+"""README of a gap without flows."""
 
 HEIGHT_ROUND_OFF = 1e-12
 """Largest difference of heights, over the mean gap, that counts as round-off."""
@@ -139,11 +132,17 @@ def judged_of(drive: Drive, walls: Walls) -> tuple[str, ...]:
 
 
 def write_gap_case(
-    scene: RoughGap, directory: Path, request: CheckedRequest, reynolds_number: float, *, run: bool = False
+    scene: RoughGap,
+    directory: Path,
+    request: CheckedRequest,
+    reynolds_number: float,
+    dialect: Dialect,
+    *,
+    run: bool = False,
 ) -> None:
     """Write the cases of a scene, one for each drive, in one directory, completely or not at all.
 
-    In a direction that contact seals there is no flow and no case.
+    In a direction that contact seals there is no flow and no case. A gap that contact seals both ways has none.
 
     Parameters
     ----------
@@ -151,14 +150,14 @@ def write_gap_case(
     directory : the directory of the cases, which is made; it may exist if it is empty.
     request : numerical options; the resolution is the number of columns along the longer side.
     reynolds_number : the Reynolds number at which the cases are run; the model chooses it.
-    run : whether the cases are to be run on this machine. A gap that contact seals both ways is then written as a
-        directory without cases.
+    dialect : the dialect of OpenFOAM in which the cases are written.
+    run : whether the cases are to be run by this library at once, which needs more memory than to write them, and no
+        dictionaries of a second try.
 
     Raises
     ------
     InputError
-        If the directory is not empty, the mesh does not fit into this machine's memory, or contact seals the gap both
-        ways and ``run`` is False.
+        If the directory is not empty, or the mesh does not fit into this machine's memory.
     """
     resolution, processes = request.resolution, request.processes
     nx, ny = columns_of(scene, resolution)
@@ -168,11 +167,6 @@ def write_gap_case(
     sides = walls.spacing[0] / scene.mean_gap, walls.spacing[1] / scene.mean_gap
     drives = _drives(walls, columns)
     judged = {drive.name: list(judged_of(drive, walls)) for drive in drives}
-    if not drives and not run:
-        raise InputError(
-            "scene: contact seals the gap both ways on this mesh; "
-            "take more columns, lower the load or take a smaller mesh.smallest_gap"
-        )
     card = GapCard(
         layers=layers,
         cells=int(columns.kept.sum()) * layers,
@@ -181,11 +175,13 @@ def write_gap_case(
         tolerance=request.tolerance,
         scheme=request.scheme,
         processes=processes,
+        dialect=dialect.name,
         judged=judged,
         relaxation={name: relaxation(layers, sides, straight=len(fields) == 1) for name, fields in judged.items()},
     )
-    closed = partial(write_papers, readme="", allrun="", card=card)
-    write_whole(directory, _filled(scene, walls, columns, drives, card) if drives else closed)
+    script = allrun({}, tolerance=card.tolerance, processes=1, dialect=dialect)
+    closed = partial(write_papers, readme=CLOSED, allrun=script, card=card)
+    write_whole(directory, _filled(scene, walls, columns, drives, card, dialect, run=run) if drives else closed)
 
 
 def _drives(walls: Walls, columns: Columns) -> list[Drive]:
@@ -196,7 +192,14 @@ def _drives(walls: Walls, columns: Columns) -> list[Drive]:
 
 
 def _filled(
-    scene: RoughGap, walls: Walls, columns: Columns, drives: list[Drive], card: GapCard
+    scene: RoughGap,
+    walls: Walls,
+    columns: Columns,
+    drives: list[Drive],
+    card: GapCard,
+    dialect: Dialect,
+    *,
+    run: bool,
 ) -> Callable[[Path], None]:
     """The function that fills a directory with the cases."""
     shape = (*columns.kept.shape, card.layers)
@@ -213,7 +216,8 @@ def _filled(
         length=scene.mean_gap,
         excess=1 + 2 / card.layers**2,
     )
-    allrun = SHELL + RUN.format(first=drives[0].name, drives=names, commands=commands(card.processes))
+    readme += written_for(dialect)
+    script = allrun(card.drives, tolerance=card.tolerance, processes=card.processes, dialect=dialect)
 
     def fill(place: Path) -> None:
         write_block(columns.vertices, SIDES, place, kept=kept, cut=CONTACT)
@@ -225,6 +229,7 @@ def _filled(
                 case,
                 gap_dictionaries(
                     drive,
+                    dialect=dialect,
                     reynolds_number=card.reynolds_number,
                     tolerance=card.tolerance,
                     scheme=card.scheme,
@@ -236,7 +241,9 @@ def _filled(
                     patches=patches,
                 ),
             )
+            if not run:
+                write_second_try(case, scheme=card.scheme, tolerance=card.tolerance)
             (case / "constant" / "polyMesh").symlink_to(Path("..") / ".." / "constant" / "polyMesh")
-        write_papers(place, readme=readme, allrun=allrun, card=card)
+        write_papers(place, readme=readme, allrun=script, card=card)
 
     return fill

@@ -6,9 +6,11 @@ from typing import Any
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.foamcases.openfoam.block_mesh import Patch
+from roughfilm.foamcases.openfoam.dialect import Dialect
 from roughfilm.foamcases.openfoam.dictionaries import Dictionary, control, liquid, schemes, solution
 from roughfilm.foamcases.openfoam.iterate import STOP
 from roughfilm.foamcases.openfoam.residuals import FIELDS
+from roughfilm.foamcases.openfoam.settling import MEAN_VELOCITY
 
 ITERATIONS = 3000
 """Largest number of iterations."""
@@ -46,29 +48,6 @@ SIDES = (
 
 CONTACT = Patch(name="contact", entries={"type": "wall"})
 """The patch of the edges of contact."""
-
-
-MEAN_VELOCITY = "flow"
-"""Name of the OpenFOAM function that logs the mean velocity of all cells in each iteration."""
-
-FUNCTIONS = {
-    MEAN_VELOCITY: {
-        "type": "volFieldValue",
-        "libs": ['"libfieldFunctionObjects.so"'],
-        "fields": ["U"],
-        "operation": "volAverage",
-        "regionType": "all",
-        "writeFields": False,
-        "writePrecision": 12,
-        "log": False,
-    },
-    "stop": {
-        "type": "abort",
-        "libs": ['"libutilityFunctionObjects.so"'],
-        "file": f'"<case>/{STOP}"',
-        "action": "writeNow",
-    },
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,9 +96,40 @@ def parts_of(processes: int, size: tuple[float, float]) -> tuple[int, int]:
     return min(pairs, key=lambda pair: abs(math.log(size[0] / pair[0] * pair[1] / size[1])))
 
 
+ALL_CELLS = {"select": "all", "cellZone": "all"}
+"""The two names, by release, of the entry that selects all cells; ``select`` is openfoam.org's from 11 on,
+``cellZone`` from 13 on."""
+
+
+def functions(dialect: Dialect) -> dict[str, dict[str, Any]]:
+    """The functions of ``system/controlDict`` that log the mean velocity, and end a run when the file ``STOP`` appears.
+
+    A function that ends a run looks for a file of its own name in the directory of the case.
+    """
+    return {
+        MEAN_VELOCITY: {
+            "type": "volFieldValue",
+            "libs": ['"libfieldFunctionObjects.so"'],
+            "fields": ["U"],
+            "operation": "volAverage",
+            "regionType": "all",
+            **ALL_CELLS,
+            "writeFields": False,
+            "writePrecision": 12,
+            "log": False,
+        },
+        STOP: {
+            "type": dialect.stop,
+            "libs": ['"libutilityFunctionObjects.so"'],
+            "action": "writeNow",
+        },
+    }
+
+
 def gap_dictionaries(
     drive: Drive,
     *,
+    dialect: Dialect,
     reynolds_number: float,
     tolerance: float,
     scheme: str,
@@ -137,6 +147,7 @@ def gap_dictionaries(
     Parameters
     ----------
     drive : the mean pressure gradient and the speed of the upper wall.
+    dialect : the dialect of OpenFOAM in which the case is written.
     reynolds_number : ρ q/η of a smooth gap with the thickness of the mean gap.
     tolerance : the initial residual at which the iteration stops.
     scheme : a key of ``ADVECTION``.
@@ -159,9 +170,10 @@ def gap_dictionaries(
     brief = "p" not in moving and reynolds_number <= CREEPING
     kind, entries = control(STRAIGHT_ITERATIONS if brief else ITERATIONS)
     return {
-        "system/controlDict": (kind, {**entries, "functions": FUNCTIONS}),
+        "system/controlDict": (kind, {**entries, "functions": functions(dialect)}),
         "system/fvSchemes": schemes(scheme),
         "system/fvSolution": solution(
+            dialect=dialect,
             tolerance=tolerance,
             linear=LINEAR_TOLERANCE,
             relaxation=relaxation,
@@ -182,11 +194,13 @@ def gap_dictionaries(
             "dictionary",
             {
                 "gradient": {
-                    "type": "vectorSemiImplicitSource",
+                    "type": dialect.source,
                     "active": True,
                     "selectionMode": "all",
+                    **ALL_CELLS,
                     "volumeMode": "specific",
                     "injectionRateSuSp": {"U": [[*force, 0.0], 0.0]},
+                    "sources": {"U": {"explicit": [*force, 0.0], "implicit": 0.0}},
                 }
             },
         ),

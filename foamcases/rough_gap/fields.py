@@ -7,6 +7,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.foamcases.openfoam.fields import internal_field, last_fields
 from roughfilm.foamcases.rough_gap.case import GapCard
 from roughfilm.foamcases.rough_gap.mesh import Columns
 
@@ -83,21 +84,17 @@ def read_gap_flow(case: Path, card: GapCard, columns: Columns) -> GapFlow:
     ConvergenceError
         If the case holds no finished fields, or fields that are not finite.
     """
-    from foamlib import FoamCase  # slow to import
-
     shape = (*columns.kept.shape, card.layers)
     kept = np.broadcast_to(columns.kept[..., None], shape).ravel(order="F")
     if int(kept.sum()) != card.cells:
         raise InputError(f"{case}: has {card.cells} cells, and the scene's mesh {int(kept.sum())}; generate it again")
     velocity, pressure = np.zeros((kept.size, 3)), np.zeros(kept.size)
     try:
-        last = FoamCase(case)[-1]
-        velocity[kept] = np.asarray(last["U"].internal_field, dtype=float)
-        pressure[kept] = np.asarray(last["p"].internal_field, dtype=float) * card.reynolds_number
-    except (OSError, LookupError, ValueError) as error:
-        raise ConvergenceError(f"{case}: holds no finished fields; run the case first") from error
-    if not (np.isfinite(velocity).all() and np.isfinite(pressure).all()):
-        raise ConvergenceError(f"{case}: the fields are not finite; lower the Reynolds number or refine the mesh")
+        last = last_fields(case)
+        velocity[kept] = internal_field(last / "U", 3, card.cells)
+        pressure[kept] = internal_field(last / "p", 1, card.cells)[:, 0] * card.reynolds_number
+    except InputError as error:
+        raise ConvergenceError(f"{case}: holds no finished fields ({error})") from error
     pressure[kept] -= pressure[kept].mean()
     return GapFlow(
         columns=columns,

@@ -59,5 +59,6 @@ CASES = Cases(
     write=deferred("foamcases.rough_gap.case", "write_gap_case"),
     write_to_run=partial(deferred("foamcases.rough_gap.case", "write_gap_case"), run=True),
     run=deferred("foamcases.rough_gap.run", "run_gap"),
+    kept_run=deferred("foamcases.rough_gap.run", "kept_run"),
     read=deferred("foamcases.rough_gap.cases", "read"),
 )

@@ -1,5 +1,7 @@
 """The dictionary of snappyHexMesh, without text from a scene."""
 
+from typing import Any
+
 from roughfilm.foamcases.openfoam.dictionaries import Dictionary
 from roughfilm.foamcases.rough_gap.dictionaries import CONTACT
 
@@ -11,6 +13,20 @@ MAX_CELLS = 20_000_000
 
 MAX_SKEWNESS = 3.9
 """Largest skewness of a face after snapping; the mesh check allows 4."""
+
+NO_LAYERS: dict[str, Any] = {
+    "relativeSizes": True,
+    "expansionRatio": 1.0,
+    "finalLayerThickness": 0.3,
+    "minThickness": 0.1,
+    "featureAngle": 60,
+    "nGrow": 0,
+    "maxFaceThicknessRatio": 0.5,
+    "nBufferCellsNoExtrude": 0,
+    "nLayerIter": 1,
+    "layers": {},
+}
+"""Settings of boundary layers, which openfoam.org 7 to 9 read although no layers are added."""
 
 
 def snappy_dictionary(inside: tuple[float, float, float], level: int) -> Dictionary:
@@ -31,7 +47,7 @@ def snappy_dictionary(inside: tuple[float, float, float], level: int) -> Diction
             "snap": True,
             "addLayers": False,
             "mergeTolerance": 1e-6,
-            "geometry": {name: {"type": "triSurfaceMesh", "file": SURFACE}},
+            "geometry": {name: {"type": "triSurfaceMesh", "file": f'"{SURFACE}"'}},
             "castellatedMeshControls": {
                 "maxLocalCells": MAX_CELLS,
                 "maxGlobalCells": MAX_CELLS,
@@ -54,7 +70,7 @@ def snappy_dictionary(inside: tuple[float, float, float], level: int) -> Diction
                 "explicitFeatureSnap": False,
                 "multiRegionFeatureSnap": False,
             },
-            "addLayersControls": {},
+            "addLayersControls": NO_LAYERS,
             "meshQualityControls": {
                 "maxNonOrtho": 65,
                 "maxBoundarySkewness": MAX_SKEWNESS,

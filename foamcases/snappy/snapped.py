@@ -1,8 +1,7 @@
 """Write, run and read a case of the flow through a periodic box with solids of any shape, meshed by snappyHexMesh."""
 
-import shutil
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,28 +10,33 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.contact.meshes.files import write_mesh
+from roughfilm.foamcases.openfoam.allrun import allrun
 from roughfilm.foamcases.openfoam.block_mesh import Patch, write_block
 from roughfilm.foamcases.openfoam.case_directory import (
-    SHELL,
     check_tolerance,
-    commands,
     read_card,
     write_papers,
     write_whole,
+    written_for,
 )
-from roughfilm.foamcases.openfoam.dictionaries import write_files
-from roughfilm.foamcases.openfoam.installation import REMEDY
+from roughfilm.foamcases.openfoam.dialect import Dialect
+from roughfilm.foamcases.openfoam.dictionaries import write_files, write_second_try
+from roughfilm.foamcases.openfoam.fields import internal_field, last_fields
+from roughfilm.foamcases.openfoam.installation import REMEDY, dialect_here, installation
 from roughfilm.foamcases.openfoam.program import succeed
 from roughfilm.foamcases.openfoam.residuals import FIELDS, Judged
 from roughfilm.foamcases.openfoam.run import check_mesh, converge, ready, remarks
+from roughfilm.foamcases.openfoam.settling import mean_velocity, settled_within, unsettled
 from roughfilm.foamcases.rough_gap.dictionaries import CONTACT, SIDES, Drive, gap_dictionaries, relaxation
 from roughfilm.foamcases.rough_gap.model import TOLERANCE
-from roughfilm.foamcases.rough_gap.run import mean_velocity, settled_within, unsettled
 from roughfilm.foamcases.snappy.dictionary import SURFACE, snappy_dictionary
 from roughfilm.foamcases.snappy.solid import Carved
 from roughfilm.rom.ladder.model import Progress, silent
 
 PROGRAM = "snappyHexMesh"
+VOLUMES = ("V", "Vc")
+"""The names of the field of cell volumes; the second is that of openfoam.org from 11 on."""
+
 STILL: Any = [0.0, 0.0, 0.0]
 """Initial velocity of every cell."""
 
@@ -41,16 +45,6 @@ LEVEL: Any = 0.0
 
 ALL = Judged()
 """The default criteria of convergence: all fields, with Ux as the main velocity."""
-
-ALLRUN = """\
-snappyHexMesh -overwrite > log.snappyHexMesh 2>&1 &&
-    checkMesh > log.checkMesh 2>&1 &&
-    {commands}
-status=$?
-grep -h "Mesh OK" log.checkMesh
-grep -h "SIMPLE solution converged" log.simpleFoam
-exit $status
-"""
 
 README = """\
 A flow through one period of a box with solids in it, for OpenFOAM's snappyHexMesh and simpleFoam. Run it with ./Allrun
@@ -72,6 +66,7 @@ class SnappedCard:
     scheme : a key of ``ADVECTION``.
     processes : number of processes, 1.
     open : names of the sides that the liquid must reach.
+    dialect : name of the dialect of OpenFOAM in which the case is written.
     """
 
     area: float
@@ -79,6 +74,7 @@ class SnappedCard:
     scheme: str
     processes: int
     open: list[str]
+    dialect: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,6 +117,7 @@ def write_snapped(
     scheme: str = "",
     level: int = 0,
     sides: tuple[Patch, ...] = SIDES,
+    dialect: Dialect | None = None,
 ) -> None:
     """Write the case of a box and its solid completely or not at all.
 
@@ -135,6 +132,7 @@ def write_snapped(
     level : how many times cells at the solid are halved.
     sides : patches at x-, x+, y-, y+, z-, z+. The sides at z- and z+ act on the liquid only where the solid leaves
         them free, and a side that the solid covers has no faces.
+    dialect : the dialect of the case; None for that of the OpenFOAM of this machine, or ``COM`` without one.
 
     Raises
     ------
@@ -142,6 +140,7 @@ def write_snapped(
         If the tolerance is out of range, the point in the liquid is outside of the box, or the directory is not empty.
     """
     check_tolerance(tolerance)
+    dialect = dialect or dialect_here()
     box, inside = carved.box, np.asarray(carved.inside)
     if not ((inside > [0, 0, box.bottom]) & (inside < [*box.size, box.top])).all():
         raise InputError(f"inside: got {carved.inside}, which lies outside the box; name a place in the liquid")
@@ -149,7 +148,14 @@ def write_snapped(
     through = [sides[2 * axis].name for axis, part in enumerate(drive.gradient) if part]
     if drive.speed:
         through.append(sides[5].name)
-    card = SnappedCard(area=box.size[0] * box.size[1], tolerance=tolerance, scheme=scheme, processes=1, open=through)
+    card = SnappedCard(
+        area=box.size[0] * box.size[1],
+        tolerance=tolerance,
+        scheme=scheme,
+        processes=1,
+        open=through,
+        dialect=dialect.name,
+    )
 
     def fill(place: Path) -> None:
         write_block(box.vertices, sides, place)
@@ -157,6 +163,7 @@ def write_snapped(
         write_mesh(carved.solid, surface)
         files = gap_dictionaries(
             drive,
+            dialect=dialect,
             reynolds_number=reynolds_number,
             tolerance=tolerance,
             scheme=scheme,
@@ -168,7 +175,11 @@ def write_snapped(
             patches=(*sides, CONTACT),
         )
         write_files(place, {**files, "system/snappyHexMeshDict": snappy_dictionary(carved.inside, level)})
-        write_papers(place, readme=README, allrun=SHELL + ALLRUN.format(commands=commands(1)), card=card)
+        write_second_try(place, scheme=scheme, tolerance=tolerance)
+        judged = replace(ALL, main="Uy" if drive.gradient[1] else "Ux")
+        mesher = f"{PROGRAM} -overwrite"
+        script = allrun({".": judged}, tolerance=tolerance, processes=1, dialect=dialect, mesher=mesher)
+        write_papers(place, readme=README + written_for(dialect), allrun=script, card=card)
 
     write_whole(directory, fill)
 
@@ -183,12 +194,10 @@ def run_snapped(directory: Path, judged: Judged = ALL, *, progress: Progress = s
     ConvergenceError
         If the liquid does not reach through the box, the mesh has faults, or the flow does not converge.
     """
-    from foamlib import FoamCase  # slow to import
-
-    ready(1)
-    if shutil.which(PROGRAM) is None:
-        raise UnavailableError(f"no {PROGRAM} on the PATH; {REMEDY}")
+    if not installation().has(PROGRAM):
+        raise UnavailableError(f"no {PROGRAM} in the OpenFOAM that is used; {REMEDY}")
     wall, card = time.perf_counter(), read_card(directory, SnappedCard)
+    ready(directory, card.dialect, card.processes)
     progress(0.0, PROGRAM)
     mesh = succeed(directory, [PROGRAM, "-overwrite"], f"log.{PROGRAM}")
     _check_open(directory, card.open)
@@ -196,13 +205,15 @@ def run_snapped(directory: Path, judged: Judged = ALL, *, progress: Progress = s
     run = converge(directory, card, judged, progress, settled_within(card.tolerance, directory, judged))
     volumes = succeed(directory, ["postProcess", "-func", "writeCellVolumes", "-latestTime"], "log.volumes")
     try:
-        last = FoamCase(directory)[-1]
-        velocity = np.asarray(last["U"].internal_field, dtype=float)
-        volume = np.asarray(last["V"].internal_field, dtype=float)
-    except (OSError, LookupError, ValueError) as error:
-        raise ConvergenceError(f"{directory}: holds no finished fields; run the case again") from error
-    if not (np.isfinite(velocity).all() and volume.min() > 0):
-        raise ConvergenceError(f"{directory}: the fields are not finite; lower the Reynolds number or refine the mesh")
+        last = last_fields(directory)
+        volume = internal_field(
+            next((last / name for name in VOLUMES if (last / name).exists()), last / VOLUMES[0]), 1
+        )[:, 0]
+        velocity = internal_field(last / "U", 3, volume.size)
+    except InputError as error:
+        raise ConvergenceError(f"{directory}: holds no finished fields ({error})") from error
+    if not volume.min() > 0:
+        raise ConvergenceError(f"{directory}: a cell has no volume; refine the mesh")
     flow = volume @ velocity / card.area
     return SnappedFlow(
         flow_per_width=flow,

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from roughfilm.foamcases.openfoam.case_directory import CARD, read_card
+from roughfilm.foamcases.openfoam.installation import dialect_here
 from roughfilm.foamcases.rough_gap.case import GapCard, mesh_of, write_gap_case
 from roughfilm.foamcases.rough_gap.cases import factors_of
 from roughfilm.foamcases.rough_gap.fields import read_gap_flow
@@ -31,7 +32,7 @@ def flow_between(tmp_path):
         request = CheckedRequest(
             resolution=max(walls.lower.shape), tolerance=tolerance, scheme=scheme, processes=processes, asked=Request()
         )
-        write_gap_case(scene, case, request, reynolds_number)
+        write_gap_case(scene, case, request, reynolds_number, dialect_here())
         if only is not None:
             entries = json.loads((case / CARD).read_text())
             entries["judged"] = {only: entries["judged"][only]}

@@ -1,6 +1,7 @@
 """Programs end with us, and each is charged with its own CPU time alone."""
 
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -12,8 +13,12 @@ from pathlib import Path
 import pytest
 
 from roughfilm.contact.foundation.child_processes import terminate_with_parent
-from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.writing.scratch import sweep
 from roughfilm.foamcases.openfoam.program import execute, succeed
+
+SOLVERS = {"simpleFoam", "foamRun"}
+"""The names of the process of simpleFoam, which is a script around foamRun from openfoam.org 11 on."""
 
 SOLVE = """
 from roughfilm.foamcases.pocket.models.navier_stokes import MODEL
@@ -102,9 +107,11 @@ def name_and_state(process_id: int) -> tuple[str, str]:
 @pytest.mark.skipif(not terminate_with_parent(), reason="no setpriv (util-linux) on this machine")
 @pytest.mark.parametrize("processes", [1, 2])
 def test_a_killed_parent_leaves_no_solver(pocket_file, tmp_path, processes):
+    temporary = tmp_path / "tmp"
+    temporary.mkdir()
     parent = subprocess.Popen(
         [sys.executable, "-c", SOLVE.format(scene=str(pocket_file), processes=processes)],
-        env={**os.environ, "TMPDIR": str(tmp_path)},
+        env={**os.environ, "TMPDIR": str(temporary)},
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
@@ -112,7 +119,7 @@ def test_a_killed_parent_leaves_no_solver(pocket_file, tmp_path, processes):
     solvers = []
     while len(solvers) < processes and time.monotonic() < deadline:
         time.sleep(0.2)
-        solvers = [one for one in descendants(parent.pid) if name_and_state(one)[0] == "simpleFoam"]
+        solvers = [one for one in descendants(parent.pid) if name_and_state(one)[0] in SOLVERS]
     children = descendants(parent.pid)
     parent.kill()
     parent.wait()
@@ -124,3 +131,21 @@ def test_a_killed_parent_leaves_no_solver(pocket_file, tmp_path, processes):
     for one in left:
         os.kill(one, signal.SIGKILL)
     assert left == []
+    sweep(temporary)
+    assert not list(temporary.iterdir())
+
+
+@pytest.mark.parametrize("command", [["true"], ["dd", "if=/dev/zero", "of=big", "bs=1000", "count=9"], ["mpirun"]])
+def test_a_full_disk_is_one_line_whatever_the_program_says(command, tmp_path):
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4_000, before[1]))
+    try:
+        with pytest.raises(InputError, match=r"cannot be written \(File too large\); raise the limit"):
+            execute(tmp_path, command, "log")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+def test_a_program_learns_the_directory_of_its_case_and_not_that_of_the_command(tmp_path, monkeypatch):
+    monkeypatch.setenv("PWD", "/somewhere else")
+    assert execute(tmp_path, ["printenv", "PWD"], "log").log.strip() == str(tmp_path)

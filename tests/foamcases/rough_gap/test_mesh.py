@@ -138,5 +138,6 @@ def test_a_card_says_what_each_drive_is_judged_by():
         processes=1,
         judged={"across": ["Uy", "Uz", "p"]},
         relaxation={"across": 0.9},
+        dialect="com",
     )
     assert (card.drives["across"].main, card.drives["across"].fields) == ("Uy", ("Uy", "Uz", "p"))

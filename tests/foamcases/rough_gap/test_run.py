@@ -12,15 +12,17 @@ from foamlib import FoamFile
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.foamcases.openfoam import memory
 from roughfilm.foamcases.openfoam.case_directory import read_card
+from roughfilm.foamcases.openfoam.dialect import COM
 from roughfilm.foamcases.openfoam.memory import memory_available, memory_estimate
 from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
 from roughfilm.foamcases.openfoam.run import check_mesh
+from roughfilm.foamcases.openfoam.settling import unsettled
 from roughfilm.foamcases.rough_gap import case as gap_case
 from roughfilm.foamcases.rough_gap.case import GapCard, judged_of, write_gap_case
 from roughfilm.foamcases.rough_gap.dictionaries import DRIVES
 from roughfilm.foamcases.rough_gap.models import navier_stokes as gap_navier_stokes
 from roughfilm.foamcases.rough_gap.models import stokes as gap_stokes
-from roughfilm.foamcases.rough_gap.run import run_gap, unsettled
+from roughfilm.foamcases.rough_gap.run import run_gap
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.rough_gap.walls import Walls
@@ -79,7 +81,7 @@ def test_a_mesh_that_does_not_fit_is_refused_before_it_is_made(tmp_path, monkeyp
     scene = read_scene({**ENTRIES, "mesh": {"layers": 1000}})
     finest = gap_navier_stokes.MODEL.checked(scene, Request(resolution=256))
     with pytest.raises(InputError, match=r"256 × 2 × 1000 cells would take about .* GiB .* be run, and 0.5 GiB are"):
-        write_gap_case(scene, tmp_path / "case", finest, 0.5, run=True)
+        write_gap_case(scene, tmp_path / "case", finest, 0.5, COM, run=True)
     assert not (tmp_path / "case").exists()
     assert memory_estimate(256 * 2, 1000, run=False) < memory_estimate(256 * 2, 1000)
 
