@@ -1,25 +1,20 @@
-"""Write the OpenFOAM case of every case of a study: python scripts/generate_cases.py STUDY --out DIR."""
+"""Write the OpenFOAM cases of a study: python scripts/generate_cases.py STUDY --out DIR."""
 
 import argparse
-from pathlib import Path
 
 import roughfilm as rf
 
 
 def main() -> None:
-    """Write ``DIR/CASE/MODEL``, each with its Allrun, and print the directories."""
+    """Write the cases with their scripts, and print the directory of each."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("study", metavar="STUDY", help="the study file (TOML)")
-    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where the cases go: DIR/CASE/MODEL")
-    parser.add_argument("--model", default="navier_stokes", help="navier_stokes or stokes")
-    parser.add_argument("--resolution", type=int, help="mesh columns; the model's default if left out")
+    parser.add_argument("study", metavar="STUDY", help="the study file (TOML); it names the models and resolutions")
+    parser.add_argument("--out", required=True, metavar="DIR", help="where the cases go; DIR/Allrun.all runs them all")
+    parser.add_argument("--dialect", help="com or org, the family of OpenFOAM that will run them")
     given = parser.parse_args()
     try:
-        for case in rf.load_study(given.study).cases:
-            directory = given.out / case.name / given.model
-            rf.write_case(case.scene, directory, model=given.model, resolution=given.resolution)
-            print(directory)
-    except (rf.InputError, rf.UnavailableError) as error:
+        print(*rf.write_study(given.study, given.out, dialect=given.dialect), sep="\n")
+    except rf.InputError as error:
         raise SystemExit(f"error: {error}") from None
 
 
