@@ -1,11 +1,12 @@
 """The directory of a batch, with a subdirectory for each case and a lock against other batches."""
 
-import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from roughfilm.contact.foundation.files import locked, replacing
+from roughfilm.contact.foundation.writing.kinds import beginning_with
+from roughfilm.contact.foundation.writing.scratch import scratch_directory, sweep
 from roughfilm.rom.studies.study import Case, as_toml
 
 CASES = "cases"
@@ -24,7 +25,7 @@ def put_scene(case: Case, directory: Path) -> None:
     """Write the complete scene of a case to ``scene.toml`` in its directory, unless the file exists."""
     path = directory / "scene.toml"
     if not path.is_file():
-        with replacing(path) as scratch:
+        with replacing(path, beginning_with("a scene", b"")) as scratch:
             scratch.write_text(as_toml(case.scene), encoding="utf-8")
 
 
@@ -34,14 +35,9 @@ def alone(out: Path) -> Iterator[Path]:
 
     The lock ends with this process. Raises InputError if another process holds it.
     """
-    message = f"out {out}: another batch works here (process {{process}}); wait for it or choose another place"
+    message = f"{out}: another batch works here (process {{process}}); wait for it or choose another place"
     with locked(out / ".lock", message):
-        scratch = out / ".scratch"
-        shutil.rmtree(scratch, ignore_errors=True)  # left by a batch that was killed, as are the files
-        for path in [*out.glob(".table-*"), *out.glob(".study-*"), *(out / CASES).glob("*/.*")]:
-            path.unlink(missing_ok=True)
-        scratch.mkdir(exist_ok=True)
-        try:
-            yield scratch.resolve()
-        finally:
-            shutil.rmtree(scratch, ignore_errors=True)
+        for directory in (out, *places(out).values()):
+            sweep(directory)
+        with scratch_directory() as scratch:
+            yield scratch

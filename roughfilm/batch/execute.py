@@ -1,15 +1,16 @@
-"""Execution of many jobs by any executor: they are sent in chunks, the most expensive first."""
+"""Execution of many jobs by any workers: they are sent in chunks, the most expensive first."""
 
 import platform
 import signal
+import threading
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError, Executor, Future
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from queue import SimpleQueue
+from queue import Empty, SimpleQueue
 from signal import SIGINT, SIGTERM
-from typing import Any
+from typing import Any, Protocol
 
 from roughfilm.batch.jobs import Failure, Job, failure_of
 from roughfilm.contact.foundation.errors import UnavailableError
@@ -30,9 +31,17 @@ It is much longer than the time to send a chunk, and short enough to be repeated
 STORING_S = 3e-3
 """CPU time to write a result to a file, s; for the cheapest models this is most of the cost."""
 
+WATCH_S = 1.0
+"""Time without an answer after which the workers are watched, s."""
 
-Question = tuple[Scene, str, int | None, str | None]
-"""A job in the form that workers receive: scene, name of the model, resolution, scheme; workers write no files."""
+ONE_AT_A_TIME = threading.Lock()
+"""Held while jobs run: a worker of dask may have several threads, but models and CPU times are those of a process."""
+
+GONE = "the scheduler is gone; what is stored stays, start again"
+
+Question = tuple[Scene, str, int | None, str | None, str]
+"""A job in the form that workers receive: scene, name of the model, resolution, scheme, and the programs that the model
+needs, in the words of its availability; workers write no files."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,30 +55,41 @@ class Solved:
 Answer = Solved | Failure
 
 
+class Workers(Protocol):
+    """Processes that run jobs, on this machine or on others."""
+
+    def executor(self, needs: str | None = None) -> Executor:
+        """The executor of all workers, or of those that can run models with the availability ``needs``, in words."""
+
+    def watch(self) -> None:
+        """Raise UnavailableError if all workers are gone for too long."""
+
+
 def expected_cost(job: Job) -> float:
     """The expected CPU time of a job, s, including the time to write its file."""
     return job.setting.cost(job.scene) + STORING_S
 
 
-def run(jobs: Sequence[Job], executor: Executor) -> Iterator[tuple[Job, Answer]]:
-    """Send every job to an executor and yield each job with its answer, in the order of the answers.
+def run(jobs: Sequence[Job], workers: Workers) -> Iterator[tuple[Job, Answer]]:
+    """Send every job to a worker and yield each job with its answer, in the order of the answers.
 
-    An error in one job does not stop the others. If a worker dies, the jobs of its chunk are sent again one by one; a
-    job whose worker dies again has failed.
+    An error in one job does not stop the others. If a worker dies, or has not what a job needs, the jobs of its chunk
+    are sent again one by one; a job to which this happens twice has failed.
 
     Raises
     ------
     SystemExit
         If the process receives SIGINT or SIGTERM; a signal that it ignores, as with nohup, stays ignored.
     UnavailableError
-        If the scheduler of the executor stops.
+        If the scheduler of the workers stops, or all workers are gone.
     """
     pending: dict[Future[list[Answer]], tuple[list[Job], bool]] = {}
     finished: SimpleQueue[Future[list[Answer]] | int] = SimpleQueue()
     origin = (code(), versions())
 
     def send(chunk: list[Job], again: bool) -> None:
-        future = executor.submit(ask, [_question(job) for job in chunk], origin)
+        questions = [_question(job) for job in chunk]
+        future = workers.executor(questions[0][-1] if again else None).submit(ask, questions, origin)
         pending[future] = (chunk, again)
         future.add_done_callback(finished.put)
 
@@ -77,14 +97,18 @@ def run(jobs: Sequence[Job], executor: Executor) -> Iterator[tuple[Job, Answer]]
         for chunk in chunks(jobs):
             send(chunk, False)
         while pending:
-            future = finished.get()
+            try:
+                future = finished.get(timeout=WATCH_S)
+            except Empty:
+                workers.watch()
+                continue
             if isinstance(future, int):
                 raise SystemExit(128 + future)
             chunk, again = pending.pop(future)
             try:
                 error = future.exception()
             except CancelledError:
-                raise UnavailableError("the scheduler is gone; what is stored stays, start again") from None
+                raise UnavailableError(GONE) from None
             if error is None:
                 answers = future.result()
                 yield from zip(chunk, answers, strict=False)
@@ -133,28 +157,39 @@ def chunks(jobs: Iterable[Job]) -> Iterator[list[Job]]:
 
 
 def _question(job: Job) -> Question:
-    return job.scene, job.setting.model.name, job.setting.resolution, job.setting.scheme
+    setting = job.setting
+    return job.scene, setting.model.name, setting.resolution, setting.scheme, setting.model.available().detail
 
 
 def ask(questions: Sequence[Question], origin: tuple[str, dict[str, Any]]) -> list[Answer]:
-    """Compute the answers to questions in order, in a worker.
+    """Compute the answers to questions in order, in a worker; other calls in its process wait.
 
     After twice the time ``CHUNK_S`` no further question is started, so that the result may be shorter than the input.
 
-    Raises UnavailableError if the worker's code or libraries are not those of ``origin``.
+    Raises UnavailableError if the worker's code or libraries are not those of ``origin``, or its programs are not those
+    that the first question needs.
     """
+    host = platform.node()
     if origin != (code(), versions()):
-        host = platform.node()
         raise UnavailableError(f"{host}: has other code or libraries than the sender; install the same there")
-    end = time.monotonic() + 2 * CHUNK_S
     answers: list[Answer] = []
-    for scene, name, resolution, scheme in questions:
-        if answers and time.monotonic() > end:
-            break
-        spent = stopwatch()  # a worker has one job at a time
-        try:
-            result = Setting(model=find(scene.kind, name), resolution=resolution, scheme=scheme).solve(scene)
-            answers.append(Solved(result=replace(result, fields={}), file=as_bytes(result)))
-        except Exception as error:  # any error of a model is a failure of this job alone
-            answers.append(replace(failure_of(error), cpu_s=spent()["cpu_s"]))
+    with ONE_AT_A_TIME:
+        end = time.monotonic() + 2 * CHUNK_S
+        for scene, name, resolution, scheme, needs in questions:
+            model = find(scene.kind, name)
+            has = model.available().detail
+            if answers and (time.monotonic() > end or has != needs):
+                break
+            if has != needs:
+                raise UnavailableError(f"{host}: {name} needs {needs} ({has})")
+            answers.append(_answer(scene, Setting(model=model, resolution=resolution, scheme=scheme)))
     return answers
+
+
+def _answer(scene: Scene, setting: Setting) -> Answer:
+    spent = stopwatch()
+    try:
+        result = setting.solve(scene)
+        return Solved(result=replace(result, fields={}), file=as_bytes(result))
+    except Exception as error:  # any error of a model is a failure of this job alone
+        return replace(failure_of(error), cpu_s=spent()["cpu_s"])

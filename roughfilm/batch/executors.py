@@ -1,28 +1,29 @@
-"""Executors of ``concurrent.futures`` that run jobs in processes of this machine or on a dask cluster."""
+"""An executor of ``concurrent.futures`` that runs jobs in processes of this machine."""
 
-import asyncio
-import logging
 import multiprocessing
 import os
 import signal
 import tempfile
 import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
-from contextlib import contextmanager, suppress
-from functools import partial
+from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager, suppress
+from functools import cache, partial
 from multiprocessing import forkserver
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
+from multiprocessing.util import Finalize, get_temp_dir
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
-from roughfilm.contact.foundation.errors import UnavailableError
-from roughfilm.terminal.console import messages
+from roughfilm.contact.foundation.writing.scratch import scratch_directory, temporary_directory
 
-SCHEDULER_TIMEOUT_S = 5
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """Environment variables that are set to 1 unless they are set, because the jobs share the cores."""
+
+
+MAX_SOCKET_PLACE = 40
+"""Length of the path of a temporary directory above which sockets are in /tmp; Linux allows them 107 bytes."""
 
 
 class Processes(ThreadPoolExecutor):
@@ -37,6 +38,7 @@ class Processes(ThreadPoolExecutor):
         super().__init__(count)
         self._context = multiprocessing.get_context("forkserver")
         self._context.set_forkserver_preload(["roughfilm.batch.execute"])
+        _place_socket()
         handler = signal.signal(signal.SIGINT, signal.SIG_IGN)  # children inherit this and ignore Ctrl-C
         forkserver.ensure_running()
         signal.signal(signal.SIGINT, handler)
@@ -48,6 +50,13 @@ class Processes(ThreadPoolExecutor):
     def submit(self, call: Callable[..., Any], /, *arguments: Any, **options: Any) -> Future[Any]:
         """Call a function in one of the processes; the future raises BrokenExecutor if the process dies."""
         return super().submit(self._in_process, partial(call, *arguments, **options))
+
+    def executor(self, needs: str | None = None) -> Self:  # noqa: ARG002 (all processes are of this machine)
+        """These processes."""
+        return self
+
+    def watch(self) -> None:
+        """Do nothing, because a process that dies is replaced."""
 
     def _in_process(self, call: Callable[[], Any]) -> Any:
         if not hasattr(self._own, "pipe"):
@@ -82,6 +91,21 @@ class Processes(ThreadPoolExecutor):
         super().shutdown(wait=wait)
 
 
+@cache
+def _place_socket() -> None:
+    """Place the socket of the server that starts processes in a scratch directory, which ends with this process."""
+    held = ExitStack()
+    Finalize(None, held.close, exitpriority=-200)  # after the removal of the socket, at -100
+    before = tempfile.tempdir
+    if len(str(temporary_directory())) > MAX_SOCKET_PLACE:
+        tempfile.tempdir = "/tmp"
+    try:
+        tempfile.tempdir = str(held.enter_context(scratch_directory()))
+        get_temp_dir()
+    finally:
+        tempfile.tempdir = before
+
+
 def _kill(process: ForkServerProcess) -> None:
     """Kill a process and its children, even if the process itself has ended."""
     assert process.pid is not None
@@ -90,48 +114,12 @@ def _kill(process: ForkServerProcess) -> None:
 
 
 @contextmanager
-def local(count: int, scratch: Path) -> Iterator[Executor]:
+def local(count: int, scratch: Path) -> Iterator[Processes]:
     """Yield an executor with ``count`` processes on this machine; their temporary files are in ``scratch``."""
     for name in THREADS:
         os.environ.setdefault(name, "1")
     with Processes(count, scratch) as executor:
         yield executor
-
-
-@contextmanager
-def dask(address: str) -> Iterator[Executor]:
-    """Yield the executor of a running dask cluster with roughfilm installed on its workers.
-
-    ``address`` is that of the scheduler, such as "tcp://host:8786".
-
-    Raises UnavailableError if dask is not installed or the scheduler does not answer.
-    """
-    try:
-        import distributed
-    except ImportError:
-        message = "executor dask: needs the library distributed; install it with: pip install 'roughfilm[cluster]'"
-        raise UnavailableError(message) from None
-    logging.disable()  # dask and tornado would print many lines in addition to the error
-    try:
-        asyncio.run(asyncio.wait_for(_greet(address), SCHEDULER_TIMEOUT_S))
-        client = distributed.Client(address, set_as_default=False)
-    except Exception as error:  # another program at this address may send anything
-        reason = " ".join(str(error).split()) or f"silent for {SCHEDULER_TIMEOUT_S} s"
-        message = f"scheduler {address}: no dask scheduler answers there ({reason}); start one with: dask scheduler"
-        raise UnavailableError(message) from None
-    with client:
-        if not client.nthreads():
-            messages.print(f"{address} has no workers yet; waiting for the first", markup=False, soft_wrap=True)
-        yield client.get_executor(pure=False)
-
-
-async def _greet(address: str) -> None:
-    from distributed import rpc
-
-    async with rpc(address) as scheduler:
-        kind = (await scheduler.identity())["type"]
-    if kind != "Scheduler":
-        raise ValueError(f"it is a {kind}")
 
 
 def _work(pipe: Connection, alive: Connection, scratch: Path) -> None:

@@ -1,8 +1,7 @@
 """Jobs, which are solved once, stored immediately, and used again while scene, code and versions stay the same."""
 
-import json
 import traceback
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from itertools import chain
 from pathlib import Path
@@ -12,13 +11,15 @@ from rich.markup import escape
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome, UnavailableError
 from roughfilm.contact.foundation.files import replacing, write_json
+from roughfilm.contact.foundation.reading.json_entries import from_json
+from roughfilm.contact.foundation.reading.regular import read_bytes
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import model_code, versions
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.setting import Setting
-from roughfilm.rom.ladder.store import as_bytes, load
+from roughfilm.rom.ladder.store import STORED, as_bytes, load
 from roughfilm.rom.studies.convergence import GRIDS
 from roughfilm.terminal.console import messages, progress_bar
 
@@ -26,6 +27,12 @@ QUICK_S = 0.1
 """CPU time, s, of a model below which its time is the shortest of ``REPEATS`` runs, without the start-up."""
 
 REPEATS = 7
+
+MAX_RECORD_BYTES = 10_000_000
+"""Largest size of the record of a failure that is read, bytes."""
+
+NEEDED = ("machine", "load_average", "sources")
+"""Entries of the provenance of a stored result without which it is computed again."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,6 +80,25 @@ class Failure:
         return self.kind == ConvergenceError.__name__ and self.outcome != Outcome.FAILED
 
 
+@dataclass(frozen=True, kw_only=True)
+class Identity:
+    """All that determines the answer to a job: its setting and scene, and the code, versions and programs."""
+
+    setting: str
+    scene: Mapping[str, Any]
+    code: str
+    versions: Mapping[str, Any]
+    needs: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class FailureRecord:
+    """The content of the file of a failure."""
+
+    failure: Failure
+    identity: Identity
+
+
 def failure_of(error: Exception) -> Failure:
     """The record of an error; for an error of another package its notes are the traceback."""
     meant = isinstance(error, InputError | ConvergenceError | UnavailableError)
@@ -95,17 +121,24 @@ def stored(job: Job, *, with_fields: bool = True) -> Result | Failure | None:
         except InputError:
             pass  # an unreadable file is computed again and replaced
     try:
-        record = json.loads(job.failure_path.read_text(encoding="utf-8"))
-        failure = Failure(**{**record["failure"], "notes": tuple(record["failure"]["notes"])})
-        return failure if failure.is_answer and record["identity"] == _identity(job) else None
-    except (OSError, ValueError, LookupError, TypeError):
+        record = read_failure(job.failure_path)
+    except InputError:
         return None
+    return record.failure if record.failure.is_answer and asdict(record.identity) == _identity(job) else None
+
+
+def read_failure(path: Path) -> FailureRecord:
+    """The record of a failure; InputError if there is none, or it is damaged."""
+    try:
+        return from_json(read_bytes(path, MAX_RECORD_BYTES, "start the batch again"), FailureRecord)
+    except ValueError as error:
+        raise InputError(f"{path}: is not the record of a failure; start the batch again") from error
 
 
 def store(job: Job, answer: bytes | Failure) -> None:
     """Write the bytes of a result or the record of a failure to its file; InputError if it cannot be written."""
     if isinstance(answer, bytes):
-        with replacing(job.path) as scratch:
+        with replacing(job.path, STORED) as scratch:
             scratch.write_bytes(answer)
         job.failure_path.unlink(missing_ok=True)
         return
@@ -129,7 +162,8 @@ def _same(result: Result, job: Job) -> bool:
         and setting.resolution in (None, result.numerics.resolution)
         and setting.scheme in (None, result.numerics.scheme)
         and all(origin.get(name) == identity[name] for name in ("scene", "code", "versions"))
-        and origin.get("openfoam") in (None, identity["needs"])
+        and all(name in origin for name in NEEDED)
+        and ("collected" in origin or origin.get("openfoam") in (None, identity["needs"]))
     )
 
 
@@ -187,6 +221,8 @@ def run_all(jobs: Sequence[Job], failed: dict[str, str]) -> list[tuple[Job, Resu
                     (job, solved_once(job, _within(advance, job.setting.name, sum(costs[:number]), costs[number])))
                 )
             except (ConvergenceError, InputError) as error:
+                if isinstance(error.__cause__, OSError):  # a full disk ends the others in the same way
+                    raise
                 if job.setting.resolution is None:
                     failed[job.setting.model.name] = str(error)
                 else:

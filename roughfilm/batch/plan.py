@@ -1,16 +1,17 @@
 """The plan of a batch, ``study.json`` in its directory, and the results that its directory holds at any moment."""
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from roughfilm.batch.directory import CASES
-from roughfilm.batch.jobs import Failure, Job
+from roughfilm.batch.jobs import Failure, Job, read_failure
 from roughfilm.batch.tabulate import TableRow, columns, row_of
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import write_json
+from roughfilm.contact.foundation.reading.json_entries import from_json
+from roughfilm.contact.foundation.reading.regular import read_bytes
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.ladder.setting import Setting
@@ -20,8 +21,20 @@ from roughfilm.rom.studies.table import Column, read_columns
 
 PLAN = "study.json"
 
+MAX_PLAN_BYTES = 1_000_000_000
+"""Largest size of a plan that is read, bytes: that of a million cases."""
+
 TO_COME = "not solved yet"
 """The outcome of a job without an answer."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlannedSetting:
+    """The name of a model with a resolution and a scheme; None for the default of the model."""
+
+    model: str
+    resolution: int | None = None
+    scheme: str | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +51,7 @@ class Plan:
 
     name: str
     keys: Mapping[str, Sequence[str | int]]
-    settings: Mapping[str, Mapping[str, Any]]
+    settings: Mapping[str, PlannedSetting]
     cases: Mapping[str, Mapping[str, Any]]
 
 
@@ -70,7 +83,7 @@ def plan_of(study: Study, directories: Mapping[str, str]) -> Plan:
         name=study.name,
         keys={name: list(key) for name, key in study.keys.items()},
         settings={
-            one.name: {"model": one.model.name, "resolution": one.resolution, "scheme": one.scheme}
+            one.name: PlannedSetting(model=one.model.name, resolution=one.resolution, scheme=one.scheme)
             for one in study.settings
         },
         cases={directories[case.digest]: dict(case.varied) for case in study.cases},
@@ -94,6 +107,8 @@ def read_batch(directory: Path) -> Batch:
         If the directory holds neither a table nor a plan with results, or a file of them is broken.
     """
     plan = _read_plan(directory / PLAN)
+    if plan is None and not (directory / "table.h5").is_file():
+        raise InputError(f"{directory}: holds no batch; name the directory of a batch")
     if plan is None:
         return Batch(directory=directory, plan=None, table=read_columns(directory / "table.h5"), missing=())
     wanted = {(case, setting) for case in plan.cases for setting in plan.settings}
@@ -109,8 +124,11 @@ def _read_plan(path: Path) -> Plan | None:
     if not path.is_file():
         return None
     try:
-        return Plan(**json.loads(path.read_text(encoding="utf-8")))
-    except (OSError, ValueError, TypeError) as error:
+        plan = from_json(read_bytes(path, MAX_PLAN_BYTES, "start the batch again"), Plan)
+        if unknown := {name for varied in plan.cases.values() for name in varied} - {*plan.keys}:
+            raise ValueError(f"no location of {min(unknown)}")
+        return plan
+    except ValueError as error:
         raise InputError(f"{path}: is not the plan of a batch; start the batch again, which writes it") from error
 
 
@@ -129,7 +147,7 @@ def _collected(directory: Path, plan: Plan) -> Batch:
         for label, answer in answers.items():
             about = plan.settings[label]
             setting = Setting(
-                model=find(case.scene.kind, about["model"]), resolution=about["resolution"], scheme=about["scheme"]
+                model=find(case.scene.kind, about.model), resolution=about.resolution, scheme=about.scheme
             )
             job = Job(scene=case.scene, setting=setting, path=directory / CASES / name / f"{label}.h5")
             if answer is not None:
@@ -142,7 +160,7 @@ def _collected(directory: Path, plan: Plan) -> Batch:
         raise InputError(f"{directory}: the batch has no result yet ({len(missing)} to come); wait, or start it again")
     alike = {name: cell for name, cell in found[0][0].items() if name in ("kind", "sought")}
     lacking: list[TableRow] = [
-        ({"case": case, **alike, "setting": label, "model": plan.settings[label]["model"]}, {"outcome": TO_COME}, {})
+        ({"case": case, **alike, "setting": label, "model": plan.settings[label].model}, {"outcome": TO_COME}, {})
         for case, label in missing
     ]
     order = {case: number for number, case in enumerate(plan.cases)}
@@ -156,8 +174,7 @@ def _answer(path: Path) -> tuple[Mapping[str, Any], Any] | None:
         if path.is_file():
             result = load(path, with_fields=False)
             return result.provenance["scene"], result
-        record = json.loads(path.with_suffix(".failed.json").read_text(encoding="utf-8"))
-        failure = Failure(**{**record["failure"], "notes": tuple(record["failure"]["notes"])})
-        return record["identity"]["scene"], failure
-    except (OSError, ValueError, LookupError, TypeError, InputError):
+        record = read_failure(path.with_suffix(".failed.json"))
+        return record.identity.scene, record.failure
+    except InputError:
         return None

@@ -57,7 +57,7 @@ class BatchProgress:
     ----------
     accounts : account by name of the setting.
     failures : jobs that failed, with the reason.
-    warned : number of results with a warning.
+    warned : number of results with a warning in the table, counted when that is made.
     spent : corrected expected CPU time of the jobs that this run finished, s.
     """
 
@@ -98,7 +98,6 @@ class BatchProgress:
         account.jobs[state] += 1
         account.expected += expected_cost(job)
         account.measured += answer.numerics.cpu_s + STORING_S
-        self.warned += bool(answer.warnings)
 
     def total(self, *states: State) -> int:
         """The number of jobs in the given states, by default in all states."""

@@ -1,16 +1,15 @@
 """Solution of every case of a study by every model, and the table of all results."""
 
 from collections.abc import Mapping
-from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from pathlib import Path
 
 from roughfilm.batch.directory import CASES, places, put_scene
-from roughfilm.batch.execute import Solved, run
+from roughfilm.batch.execute import Solved, Workers, run
 from roughfilm.batch.jobs import Failure, Job, store, stored
 from roughfilm.batch.plan import plan_of, write_plan
 from roughfilm.batch.progress import BatchProgress
-from roughfilm.batch.tabulate import TableRow, columns, row_of
+from roughfilm.batch.tabulate import TableRow, columns, row_of, warned
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.studies.study import Case, Study
 from roughfilm.rom.studies.table import write_csv, write_hdf5
@@ -49,7 +48,7 @@ def finished(study: Study, tasks: Tasks, counts: BatchProgress) -> tuple[dict[Pa
 
 
 def solved_table(
-    study: Study, out: Path, counts: BatchProgress, place: AbstractContextManager[Executor], progress: Progress
+    study: Study, out: Path, counts: BatchProgress, place: AbstractContextManager[Workers], progress: Progress
 ) -> None:
     """Solve the missing jobs of a study, store each answer immediately, and write ``table.csv`` and ``table.h5``.
 
@@ -60,7 +59,7 @@ def solved_table(
     study : the study.
     out : directory of the results and tables.
     counts : progress of the batch, which is updated.
-    place : context manager of the executor; it is entered only if jobs are missing.
+    place : context manager of the workers; it is entered only if jobs are missing.
     progress : called with the done fraction and a few words.
 
     Raises
@@ -68,7 +67,7 @@ def solved_table(
     InputError
         If a file cannot be written; stored answers are kept, and the same call continues with the missing ones.
     UnavailableError
-        If the scheduler of the executor stops.
+        If the scheduler of the workers stops, or all workers are gone.
     """
     tasks = tasks_of(study, out)
     write_plan(plan_of(study, {case.digest: path.parent.name for path, (case, _) in tasks.items()}), out)
@@ -76,8 +75,8 @@ def solved_table(
     rows, missing = finished(study, tasks, counts)
     if missing:
         progress(0.0, f"starting {len(missing)} jobs")
-        with place as executor:
-            for job, answer in run(missing, executor):
+        with place as workers:
+            for job, answer in run(missing, workers):
                 case, _ = tasks[job.path]
                 put_scene(case, job.path.parent)
                 store(job, answer.file if isinstance(answer, Solved) else answer)
@@ -86,5 +85,6 @@ def solved_table(
                 counts.receive(job, result)
                 progress(counts.done, counts.words)
     table = columns([rows[path] for path in tasks])
+    counts.warned = warned(rows.values())
     write_csv(table, out / "table.csv")
     write_hdf5(table, out / "table.h5")

@@ -1,7 +1,7 @@
 """The table of a batch, with a row of inputs and results for each case and setting."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from roughfilm.batch.jobs import Failure, Job
@@ -90,6 +90,11 @@ def _expected_errors(case: Case, answer: Result) -> dict[str, Cell]:
     unknown = [name for name in kind_of_scene(case.scene).shared(answer) if answer.quantities[name].uncertainty is None]
     errors = answer.expected_error
     return {f"{name}_expected_error": _number(errors[name]) for name in unknown if name in errors}
+
+
+def warned(rows: Iterable[TableRow]) -> int:
+    """The number of rows with a warning."""
+    return sum(bool(numerics.get("warnings")) for _, _, numerics in rows)
 
 
 def columns(rows: Sequence[TableRow]) -> dict[str, Column]:

@@ -1,6 +1,7 @@
 """roughfilm batch: every case of a study by every model, in parallel; a stopped batch continues where it was."""
 
 from collections.abc import Iterator
+from contextlib import nullcontext
 from dataclasses import asdict
 from enum import StrEnum
 from pathlib import Path
@@ -9,14 +10,20 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
+from roughfilm.batch.cluster import Cluster, dask
 from roughfilm.batch.directory import alone
-from roughfilm.batch.executors import dask, local
+from roughfilm.batch.executors import local
+from roughfilm.batch.plan import PLAN
 from roughfilm.batch.progress import BatchProgress, State
+from roughfilm.batch.shown import LISTED, duration, job_counts, print_failures, print_warned, state_table
 from roughfilm.batch.solve import finished, solved_table, tasks_of
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import to_si
+from roughfilm.contact.foundation.writing.kinds import entries_from
 from roughfilm.ladder import models
 from roughfilm.rom.ladder.provenance import code, commit, versions
 from roughfilm.rom.studies.study import Study, load_study
+from roughfilm.rom.studies.table import TABLE, table_beginning
 from roughfilm.terminal.console import (
     NOT_CONVERGED,
     AsJson,
@@ -28,6 +35,7 @@ from roughfilm.terminal.console import (
     process_count,
     progress_bar,
 )
+from roughfilm.terminal.output_file import refuse_unwritable
 from roughfilm.terminal.results import print_all, table_of, written
 
 EXAMPLES = (
@@ -35,8 +43,8 @@ EXAMPLES = (
     "roughfilm batch scripts/examples/studies/pocket.toml --out sweep",
 )
 
-LISTED = 5
-"""Cases and failures that are listed; the others are counted."""
+MOST_WAIT_S = 30 * 86400
+"""Longest time to wait for workers, s."""
 
 
 class Where(StrEnum):
@@ -53,35 +61,76 @@ def command(
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Show the jobs and their cost; solve nothing.")] = False,
     executor: Annotated[Where, typer.Option(help="Run the jobs on this machine, or on a dask cluster.")] = Where.LOCAL,
     scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Address of the dask scheduler: tcp://HOST:PORT.")
+        str | None, typer.Option(metavar="ADDRESS", help="Address of the dask scheduler: tls://HOST:PORT.")
     ] = None,
+    tls: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Keys for the scheduler, as 'roughfilm cluster keys DIR' writes them."),
+    ] = None,
+    wait: Annotated[
+        str, typer.Option(metavar="TIME", help="End if the scheduler has no workers for this time.")
+    ] = "10 min",
     as_json: AsJson = False,
 ) -> None:
     """Solve every case of a study by every model and write table.csv and table.h5."""
     processes = process_count(jobs)
-    if (executor is Where.DASK) != (scheduler is not None):
-        raise InputError(f"--scheduler: got {scheduler} with --executor {executor}; dask needs one, local takes none")
-    read = load_study(study, models())
-    progress = BatchProgress()
-    if dry_run:
-        finished(read, tasks_of(read, out), progress)
-        if as_json:
-            print_json(_plan_entries(read, progress, processes))
-        else:
-            print_all(_shown_plan(read, progress, processes))
-        return
-    make_directory(out)
-    with alone(out) as scratch:
-        place = local(processes, scratch) if scheduler is None else dask(scheduler)
-        try:
-            with progress_bar(1.0) as advance:
-                solved_table(read, out, progress, place, advance)
-        except (KeyboardInterrupt, SystemExit) as stop:
-            stop.add_note(f"stopped: {progress.words}; the same command goes on")
-            raise
+    limit = _seconds(wait)
+    if executor is Where.DASK and scheduler is None:
+        raise InputError("--executor dask needs --scheduler ADDRESS")
+    if executor is Where.LOCAL and scheduler is not None:
+        raise InputError(f"--scheduler: got {scheduler} with --executor local; add --executor dask")
+    if tls is not None and scheduler is None:
+        raise InputError(f"--tls: got {tls} with --executor {executor}; local takes none")
+    with nullcontext() if scheduler is None else dask(scheduler, wait=limit, tls=tls) as cluster:
+        read = load_study(study, models() if cluster is None else cluster.models())
+        if cluster is not None:
+            _say_lacking(cluster)
+        progress = BatchProgress()
+        if dry_run:
+            finished(read, tasks_of(read, out), progress)
+            _show_plan(read, progress, processes if cluster is None else max(cluster.count(), 1), as_json)
+            return
+        make_directory(out)
+        refuse_unwritable(
+            (out / "table.csv", table_beginning("case")), (out / "table.h5", TABLE), (out / PLAN, entries_from("name"))
+        )
+        with alone(out) as scratch:
+            place = local(processes, scratch) if cluster is None else nullcontext(cluster)
+            try:
+                with progress_bar(1.0) as advance:
+                    solved_table(read, out, progress, place, advance)
+            except (KeyboardInterrupt, SystemExit) as stop:
+                stop.add_note(f"stopped: {progress.words}; the same command goes on")
+                raise
     _show_outcome(read, progress, out, as_json)
     if progress.failures:
         raise typer.Exit(NOT_CONVERGED)
+
+
+def _seconds(wait: str) -> float:
+    try:
+        seconds = to_si(wait, "s")
+    except ValueError as error:
+        raise InputError(f"--wait: {error}") from None
+    if not 0 <= seconds <= MOST_WAIT_S:
+        raise InputError(f"--wait: got {wait!r}; it must be 0 s to {MOST_WAIT_S / 86400:g} d")
+    return seconds
+
+
+def _say_lacking(cluster: Cluster) -> None:
+    """Say in one line which models are left out because no worker can run them."""
+    if cluster.lacking:
+        by_reason: dict[str, list[str]] = {}
+        for name, reason in cluster.lacking.items():
+            by_reason.setdefault(reason, []).append(name)
+        print_message("left out", "; ".join(f"{', '.join(names)}: {reason}" for reason, names in by_reason.items()))
+
+
+def _show_plan(study: Study, progress: BatchProgress, processes: int, as_json: bool) -> None:
+    if as_json:
+        print_json(_plan_entries(study, progress, processes))
+    else:
+        print_all(_shown_plan(study, progress, processes))
 
 
 def _plan_entries(study: Study, progress: BatchProgress, processes: int) -> dict[str, Any]:
@@ -102,9 +151,9 @@ def _shown_plan(study: Study, progress: BatchProgress, processes: int) -> Iterat
     if len(study.cases) > LISTED:
         rows.append(["...", *("" for _ in study.keys)])
     yield table_of(("case", *study.keys), rows, title=f"{study.name}: {len(study.cases)} cases", left=1)
-    yield _state_table(progress)
-    wall = _duration(progress.wall_s(processes))
-    yield f"to come: {_duration(progress.cpu_s)} of CPU time, {wall} with {processes} processes"
+    yield state_table(progress)
+    wall = duration(progress.wall_s(processes))
+    yield f"to come: {duration(progress.cpu_s)} of CPU time, {wall} with {processes} processes"
 
 
 def _show_outcome(study: Study, progress: BatchProgress, out: Path, as_json: bool) -> None:
@@ -116,15 +165,9 @@ def _show_outcome(study: Study, progress: BatchProgress, out: Path, as_json: boo
         tables = [str(out / name) for name in ("table.csv", "table.h5")]
         print_json({**_entries(study, progress), "failures": failures, "tables": tables})
     else:
-        print_all([_state_table(progress)])
-    if progress.warned:
-        results = "1 result has" if progress.warned == 1 else f"{progress.warned} results have"
-        print_message("warning", f"{results} warnings; see the column warnings of the table")
-    for job, failure in progress.failures[:LISTED]:
-        message = f"{job.path.parent.name} by {job.setting.name}: {failure.kind}: {failure.message}"
-        print_message("failed", message)
-    if len(progress.failures) > LISTED:
-        print_message("failed", f"{len(progress.failures) - LISTED} more; see the table")
+        print_all([state_table(progress)])
+    print_warned(progress)
+    print_failures(progress)
     if not as_json:
         failed = f", {len(progress.failures)} jobs failed" if progress.failures else ""
         solved = sum(progress.total(state) for state in (State.FINISHED, State.SOLVED))
@@ -133,27 +176,9 @@ def _show_outcome(study: Study, progress: BatchProgress, out: Path, as_json: boo
 
 
 def _entries(study: Study, progress: BatchProgress) -> dict[str, Any]:
-    counts = {name: {state.value: n for state, n in one.jobs.items()} for name, one in progress.accounts.items()}
     return {
         "study": study.name,
         "cases": len(study.cases),
-        "jobs": counts,
+        "jobs": job_counts(progress),
         "provenance": {"code": code(), "commit": commit(), "versions": versions()},
     }
-
-
-def _state_table(progress: BatchProgress) -> Table:
-    states = [state for state in State if progress.total(state)]
-    to_come = ["CPU to come"] if progress.total(State.TO_DO) else []
-    rows = [
-        [name, *(str(one.jobs[state]) for state in states), *([_duration(one.remaining)] if to_come else [])]
-        for name, one in progress.accounts.items()
-    ]
-    return table_of(["setting", *states, *to_come], rows, left=1)
-
-
-def _duration(seconds: float) -> str:
-    for unit, size in (("d", 86400), ("h", 3600), ("min", 60)):
-        if seconds >= 2 * size:
-            return f"{seconds / size:.2g} {unit}"
-    return f"{seconds:.2g} s"

@@ -1,133 +1,30 @@
 """Batches: what they leave behind, and that they survive being killed in every way."""
 
 import csv
-import importlib.util
 import json
 import os
 import random
 import signal
-import subprocess
-import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
-from places import STUDIES
-from typer.testing import CliRunner
+from batches import Batch, attempts, called, results, same_later, wait_for, write_study
+from places import SCENES, STUDIES
 
-from roughfilm.cli.main import app
+from roughfilm.batch import execute
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.foundation.writing.scratch import sweep
+from roughfilm.rom.ladder.model import always
+from roughfilm.rom.ladder.provenance import code, versions
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
 from roughfilm.rom.ladder.store import load
 from roughfilm.rom.studies.table import read_table
 
-MOODY = Path(__file__).parent / "moody" / "cli.py"
 POCKET = STUDIES / "pocket.toml"
-
-STUDY = """
-name = "tried"
-kind = "pocket"
-[geometry]
-length = "1 mm"
-film = "30 um"
-width = "0.3 length"
-depth = {depths}
-[lubricant]
-viscosity = "0.01 Pa*s"
-density = "1000 kg/m^3"
-[motion]
-reynolds_number = {numbers}
-[study]
-models = {models}
-"""
-
-
-def write_study(path, *, depths=("0.25 film",), numbers=(40,), models=("reynolds",), more=""):
-    text = STUDY.format(depths=json.dumps(depths), numbers=json.dumps(numbers), models=json.dumps(models))
-    path.write_text(text + more)
-    return path
-
-
-class Batch:
-    """``roughfilm batch`` in a session of its own, found again by a mark that its children inherit."""
-
-    def __init__(self, study, out, tmp_path, *arguments, seconds=0.0, megabytes=0.0, ignored=None):
-        self.mark = f"ROUGHFILM_TRIED={tmp_path}-{out}"
-        name, value = self.mark.split("=", 1)
-        notes = {
-            "MOODY_NOTES": str(tmp_path / "notes"),
-            "MOODY_SECONDS": str(seconds),
-            "MOODY_MEGABYTES": str(megabytes),
-        }
-        self.process = subprocess.Popen(
-            [sys.executable, str(MOODY), "batch", str(study), "--out", str(out), *map(str, arguments)],
-            env={**os.environ, **notes, name: value},
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            start_new_session=True,
-            preexec_fn=None if ignored is None else partial(signal.signal, ignored, signal.SIG_IGN),
-        )
-
-    def end(self):
-        out, err = self.process.communicate(timeout=300)
-        return self.process.returncode, out, err
-
-    def runs(self):
-        return self.process.poll() is None
-
-    def family(self):
-        """The processes that are left of it, itself not counted."""
-        found = []
-        for place in Path("/proc").iterdir():
-            try:
-                marked = place.name.isdigit() and self.mark.encode() in (place / "environ").read_bytes()
-                if (
-                    marked
-                    and int(place.name) != self.process.pid
-                    and "\nState:\tZ" not in (place / "status").read_text()
-                ):
-                    found.append(int(place.name))
-            except OSError:
-                continue
-        return found
-
-    def workers(self):
-        """Those that lead a process group of their own."""
-        return [pid for pid in self.family() if group(pid) == pid]
-
-
-def called(study, out, *arguments):
-    """``roughfilm batch`` in this process: exit code, output and errors."""
-    result = CliRunner().invoke(app, ["batch", str(study), "--out", str(out), *map(str, arguments)])
-    return result.exit_code, result.stdout, result.stderr
-
-
-def group(pid):
-    try:
-        return os.getpgid(pid)
-    except OSError:
-        return None
-
-
-def wait_for(condition, seconds=60.0):
-    deadline = time.monotonic() + seconds
-    while time.monotonic() < deadline:
-        if found := condition():
-            return found
-        time.sleep(0.001)
-    raise AssertionError("it did not happen")
-
-
-def results(out):
-    return sorted((out / "cases").glob("*/[!.]*.h5"))
-
-
-def attempts(tmp_path):
-    notes = tmp_path / "notes"
-    return notes.read_text().split() if notes.exists() else []
 
 
 def test_a_table_of_all_cases_by_all_models(tmp_path):
@@ -207,9 +104,9 @@ def test_one_failure_stops_nothing(tmp_path):
     assert code == 3
     failures = json.loads(output)["failures"]
     kinds = {failure["kind"]: failure for failure in failures if failure["outcome"] != "failed"}
-    assert set(kinds) == {"ConvergenceError", "WorkerDied", "ZeroDivisionError"}
+    assert set(kinds) == {"ConvergenceError", "WorkerDied", "TypeError"}
     assert kinds["ConvergenceError"]["message"] == "moody: the residual grows; lower the Reynolds number"
-    assert any("in solve" in line for line in kinds["ZeroDivisionError"]["notes"])
+    assert any("in solve" in line for line in kinds["TypeError"]["notes"])
     assert len([line for line in error.splitlines() if line.startswith("failed: ")]) == len(failures) == 4
     table = read_table(out / "table.h5")
     assert sum(table["outcome"] == "solved") == 8
@@ -220,15 +117,6 @@ def test_one_failure_stops_nothing(tmp_path):
     before = attempts(tmp_path)
     assert Batch(study, out, tmp_path).end()[0] == 3
     assert set(attempts(tmp_path)[len(before) :]) == {"8", "9", "9.5"}
-
-
-def same_later(stamps, out):
-    """Every result that was there is there untouched, and all that are there are whole."""
-    now = {path: path.stat().st_mtime_ns for path in results(out)}
-    for path in now:
-        load(path)
-    assert stamps.items() <= now.items()
-    return now
 
 
 @pytest.mark.slow
@@ -256,17 +144,13 @@ def test_killed_at_any_moment_it_goes_on_where_it_was(tmp_path, everyone):
         stamps = same_later(stamps, out)
     stored = sum(path.name == "moody.h5" for path in stamps)
     assert 0 < len(stamps) < 200
-    (results(out)[0].parent / ".reynolds-half.h5").write_bytes(b"half")
-    (out / ".scratch").mkdir(exist_ok=True)
-    (out / ".scratch" / "half").write_bytes(b"half")
-
     before = len(attempts(tmp_path))
     code, _, error = Batch(study, out, tmp_path, "--jobs", 2).end()
     assert code == 0, error
     assert len(attempts(tmp_path)) - before == 100 - stored
     same_later(stamps, out)
     assert not list((out / "cases").glob("*/.*"))
-    assert not (out / ".scratch").exists()
+    assert not list((tmp_path / "tmp").iterdir())
     table = read_table(out / "table.h5")
     assert len(table["case"]) == 200
     assert set(table["outcome"]) == {"solved"}
@@ -274,16 +158,16 @@ def test_killed_at_any_moment_it_goes_on_where_it_was(tmp_path, everyone):
 
 @pytest.mark.slow
 def test_killed_while_it_writes_it_leaves_no_part_of_a_result(tmp_path):
-    out, torn = tmp_path / "out", 0
+    out, unfinished = tmp_path / "out", 0
     study = write_study(tmp_path / "s.toml", models=["moody"])
     for _ in range(3):
         batch = Batch(study, out, tmp_path, megabytes=60)
-        wait_for(partial(lambda batch: [*out.glob("cases/*/*moody*")] or not batch.runs(), batch))
+        wait_for(partial(lambda batch: [*out.glob("cases/*/.roughfilm-*/moody*")] or not batch.runs(), batch))
         batch.process.kill()
         batch.end()
-        torn += len([*out.glob("cases/*/.moody*")])
+        unfinished += len([*out.glob("cases/*/.roughfilm-*/moody.h5")])
         assert results(out) == []
-    assert torn
+    assert unfinished
     assert Batch(study, out, tmp_path, megabytes=60).end()[0] == 0
     assert load(results(out)[0]).fields["noise"].values.nbytes == 60_000_000
     assert [*out.glob("cases/*/.*")] == []
@@ -297,6 +181,8 @@ def test_killed_alone_it_takes_its_workers_with_it(tmp_path):
     batch.process.wait()
     wait_for(lambda: not batch.family(), 20)
     batch.end()
+    sweep(batch.temporary)
+    assert not list(batch.temporary.iterdir())
 
 
 @pytest.mark.parametrize(
@@ -316,7 +202,7 @@ def test_stopped_it_ends_at_once_with_one_line_and_no_children(tmp_path, send, n
     assert line.startswith("stopped: ")
     assert "of 20 jobs" in line
     wait_for(lambda: not batch.family(), 5)
-    assert not (out / ".scratch").exists()
+    assert not list(batch.temporary.iterdir())
     stamps = same_later({}, out)
     assert Batch(study, out, tmp_path, "--jobs", 4).end()[0] == 0
     same_later(stamps, out)
@@ -359,6 +245,26 @@ def test_a_worker_that_is_killed_costs_nothing_but_time(tmp_path):
     assert len(attempts(tmp_path)) <= 11
 
 
+def test_calls_in_one_process_are_answered_one_after_the_other(monkeypatch):
+    """A worker of dask may have several threads, but neither the models nor their CPU times are made for that."""
+    running, most = [], []
+
+    def solve(*_):
+        running.append(1)
+        most.append(len(running))
+        time.sleep(0.02)
+        running.pop()
+        raise ConvergenceError("no answer is needed")
+
+    monkeypatch.setattr(execute.Setting, "solve", solve)
+    scene = load_scene(SCENES / "pocket.toml")
+    question = (scene, "reynolds", None, None, always().detail)
+    with ThreadPoolExecutor(4) as threads:
+        answers = list(threads.map(lambda _: execute.ask([question], (code(), versions())), range(8)))
+    assert [one.message for (one,) in answers] == ["no answer is needed"] * 8
+    assert max(most) == 1
+
+
 @pytest.mark.openfoam
 @pytest.mark.slow
 def test_a_killed_batch_of_openfoam_runs_goes_on(tmp_path):
@@ -370,14 +276,14 @@ def test_a_killed_batch_of_openfoam_runs_goes_on(tmp_path):
         more="resolution.navier_stokes = 30\n",
     )
     batch = Batch(study, out, tmp_path, "--jobs", 2)
-    wait_for(lambda: results(out) and list((out / ".scratch").glob("roughfilm-*")))
+    wait_for(lambda: results(out) and list(batch.temporary.glob("*/roughfilm-*")))
     batch.process.kill()
     batch.end()
     wait_for(lambda: not batch.family(), 20)
     stamps = same_later({}, out)
     assert Batch(study, out, tmp_path, "--jobs", 2).end()[0] == 0
     same_later(stamps, out)
-    assert not (out / ".scratch").exists()
+    assert not list(batch.temporary.iterdir())
     table = read_table(out / "table.h5")
     assert (np.diff(table["load_plus"]) > 0).all()  # load grows with Re
 
@@ -386,8 +292,9 @@ def test_a_killed_batch_of_openfoam_runs_goes_on(tmp_path):
     ("more", "arguments", "words"),
     [
         ("", ["--jobs", "0"], "--jobs: got 0"),
-        ("", ["--executor", "dask"], "--scheduler: got None"),
-        ("", ["--scheduler", "tcp://127.0.0.1:1"], "local takes none"),
+        ("", ["--executor", "dask"], "--executor dask needs --scheduler ADDRESS"),
+        ("", ["--scheduler", "tcp://127.0.0.1:1"], "add --executor dask"),
+        ("", ["--wait=-3s"], "--wait: got '-3s'"),
         ("colour = 1\n", [], "study.colour: unknown key"),
     ],
 )
@@ -399,86 +306,3 @@ def test_bad_input_is_one_line_and_code_2(tmp_path, more, arguments, words):
     assert words in line
     assert output == ""
     assert not (tmp_path / "out").exists()
-
-
-needs_dask = pytest.mark.skipif(importlib.util.find_spec("distributed") is None, reason="distributed is not installed")
-
-
-@pytest.fixture
-def cluster(tmp_path):
-    """A scheduler and two workers of one thread, as processes, with the address."""
-    running = []
-
-    def start(program, *arguments):
-        command = [sys.executable, "-m", f"distributed.cli.{program}", *map(str, arguments), "--no-dashboard"]
-        environment = {**os.environ, "MOODY_NOTES": str(tmp_path / "notes"), "MOODY_SECONDS": "0.2"}
-        with (tmp_path / f"log-{len(running)}").open("w") as log:
-            running.append(subprocess.Popen(command, env=environment, stdout=log, stderr=log))
-        return running[-1]
-
-    output, preload = tmp_path / "scheduler.json", tmp_path / "preload.py"
-    preload.write_text(
-        f"from roughfilm.rom.pocket import models\nmodels.__path__.append({str(MOODY.parent / 'models')!r})\n"
-    )
-    scheduler = start("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", output)
-    wait_for(lambda: output.exists() and output.read_text())
-    address = json.loads(output.read_text())["address"]
-    workers = [start("dask_worker", address, "--nthreads", 1, "--no-nanny", "--preload", preload) for _ in range(2)]
-    for number in (1, 2):
-        wait_for(lambda: "Registered to" in (tmp_path / f"log-{number}").read_text())  # noqa: B023
-    yield address, scheduler, workers
-    for process in reversed(running):
-        process.kill()
-        process.wait()
-
-
-@needs_dask
-@pytest.mark.slow
-def test_a_cluster_that_loses_a_worker_answers_as_this_machine_does(tmp_path, cluster):
-    address, _, workers = cluster
-    study = write_study(tmp_path / "s.toml", models=["moody", "inertial_reynolds"], numbers=[7, *range(10, 25)])
-    there, here = tmp_path / "there", tmp_path / "here"
-    batch = Batch(study, there, tmp_path, "--executor", "dask", "--scheduler", address)
-    wait_for(lambda: len(results(there)) >= 2)
-    workers[0].kill()
-    code, _, error = batch.end()
-    assert code == 3, error
-    assert sum(line.startswith("failed") for line in error.splitlines()) == 1
-    assert Batch(study, here, tmp_path).end()[0] == 3
-    far, near = read_table(there / "table.h5"), read_table(here / "table.h5")
-    assert sum(far["outcome"] == "solved") == 31
-    for name in set(near) - {"cpu_s"}:
-        assert np.array_equal(far[name], near[name], equal_nan=far[name].dtype.kind == "f"), name
-    same_later({}, there)
-
-
-@needs_dask
-@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nowhere"])
-def test_a_scheduler_that_does_not_answer_is_one_line_and_code_4(tmp_path, address):
-    batch = Batch(POCKET, tmp_path / "out", tmp_path, "--executor", "dask", "--scheduler", address)
-    code, output, error = batch.end()
-    assert code == 4
-    (line,) = error.splitlines()
-    assert line.startswith(f"error: --scheduler {address}: no dask scheduler answers")
-    assert output == ""
-
-
-@needs_dask
-def test_a_scheduler_that_goes_ends_the_batch_in_one_line(tmp_path, cluster):
-    address, scheduler, _ = cluster
-    study = write_study(tmp_path / "s.toml", models=["moody"], numbers=list(range(10, 60)))
-    batch = Batch(study, tmp_path / "out", tmp_path, "--executor", "dask", "--scheduler", address)
-    wait_for(lambda: results(tmp_path / "out"))
-    scheduler.kill()
-    code, _, error = batch.end()
-    assert code == 4
-    assert error.splitlines() == ["error: the scheduler is gone; what is stored stays, start again"]
-    same_later({}, tmp_path / "out")
-
-
-def test_without_dask_it_says_how_to_get_it(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    place = ("--executor", "dask", "--scheduler", "tcp://127.0.0.1:9")
-    code, _, error = called(POCKET, tmp_path / "out", *place)
-    assert code == 4
-    assert "pip install 'roughfilm[cluster]'" in error

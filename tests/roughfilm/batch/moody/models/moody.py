@@ -27,7 +27,7 @@ def compute(model, scene, request, progress):
     if scene.reynolds_number == DIES:
         os.kill(os.getpid(), signal.SIGKILL)
     if scene.reynolds_number == BREAKS:
-        raise ZeroDivisionError("a fault in a model")
+        raise TypeError("a fault in a model")
     time.sleep(SECONDS)
     result = REYNOLDS.compute(model, scene, request, progress)
     noise = np.random.default_rng(20051).random(int(MEGABYTES * 125_000))
