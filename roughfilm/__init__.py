@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from roughfilm.contact.foundation.errors import UnavailableError as UnavailableError
     from roughfilm.contact.foundation.units import Quantity as Quantity
     from roughfilm.contact.surfaces.surface import Surface as Surface
+    from roughfilm.interface.cases import collect_study as collect_study
     from roughfilm.interface.cases import write_case as write_case
+    from roughfilm.interface.cases import write_study as write_study
     from roughfilm.interface.curves import effects as effects
     from roughfilm.interface.curves import leakage_curve as leakage_curve
     from roughfilm.interface.curves import stribeck as stribeck
@@ -49,7 +51,7 @@ else:
         "contact.foundation.errors": ("ConvergenceError", "InputError", "UnavailableError"),
         "contact.foundation.units": ("Quantity",),
         "contact.surfaces.surface": ("Surface",),
-        "interface.cases": ("write_case",),
+        "interface.cases": ("collect_study", "write_case", "write_study"),
         "interface.curves": ("effects", "leakage_curve", "stribeck"),
         "interface.results": ("load_result", "save"),
         "interface.scenes": ("load_scene", "read_scene", "replace"),

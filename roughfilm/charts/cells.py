@@ -3,14 +3,13 @@
 import time
 from collections.abc import Callable
 from functools import partial
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from roughfilm.charts.family import MAX_RUNS_S, Ask, ChartFamily, Measured, Peer, ReferenceValue, fastest
 from roughfilm.charts.peer_runs import CELLS
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.figures.view import Style
 from roughfilm.rom.homogenization.cell import solve_cell
 from roughfilm.rom.homogenization.conductance import FaceRule, faces
@@ -115,12 +114,12 @@ def by_reynoldsflow(nodes: int) -> Measured:
         "error": SOLVER_ERROR_FRACTION * abs(float(right[0]) / truth().value - 1),
         "repeats": 3,
     }
-    with TemporaryDirectory(prefix="roughfilm-") as place:
+    with scratch_directory() as place:
         parts = faces(h)
         for name in ("east", "north", "drag"):
-            np.save(Path(place) / f"{name}.npy", getattr(parts, name))
-        np.save(Path(place) / "gap.npy", h)
-        answer = CELLS.run("cells.py", "run_reynoldsflow:petsc-cg.hypre", Path(place), problem=problem)
+            np.save(place / f"{name}.npy", getattr(parts, name))
+        np.save(place / "gap.npy", h)
+        answer = CELLS.run("cells.py", "run_reynoldsflow:petsc-cg.hypre", place, problem=problem)
     return Measured(
         value=float(answer["pressure"][0][0]),
         cpu_s=answer["cpu_s"],

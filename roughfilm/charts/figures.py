@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from roughfilm.charts.judgement import Chart
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import PICTURE
 from roughfilm.figures.base import svg
 from roughfilm.figures.view import Style
 from roughfilm.rom.studies.comparison import Point
@@ -57,7 +58,7 @@ def overview(charts: Sequence[Chart], path: Path) -> None:
         axes.set_ylabel(f"error in {chart.family.quantity}, %", fontsize=9)
         axes.tick_params(labelsize=8)
         part.legend(loc="outside lower center", fontsize=7, ncols=3, columnspacing=1.0, handletextpad=0.4)
-    with replacing(path) as scratch:
+    with replacing(path, PICTURE) as scratch:
         figure.savefig(scratch, format="png", dpi=130, metadata={"Software": None})
 
 

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from roughfilm.charts.family import Measured, Peer
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.foamcases.openfoam.block_mesh import write_block
 from roughfilm.foamcases.openfoam.case_directory import CARD, read_card
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, Dictionary, control, write_files
@@ -116,8 +116,8 @@ def uniform(scene: Pocket, columns: int, layers: int) -> Array:
 
 def pocket_load(scene: Pocket, resolution: int) -> Measured:
     """The load+ of a pocket on uniform columns, with as many layers as this project's own mesh; raises as ``run``."""
-    with TemporaryDirectory(prefix="roughfilm-") as place:
-        directory = Path(place) / "case"
+    with scratch_directory() as place:
+        directory = place / "case"
         NAVIER_STOKES.write(scene, directory, Request(resolution=resolution))
         started = time.thread_time()
         card = replace(read_card(directory, Card), columns=resolution)

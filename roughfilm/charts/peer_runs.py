@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -15,6 +14,7 @@ import numpy as np
 from roughfilm.charts.family import Measured, Peer
 from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.contact.foundation.errors import ConvergenceError, UnavailableError
+from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Parabolic
 from roughfilm.rom.dry_contact.scene import DryContact
@@ -65,13 +65,13 @@ class Environment:
         """
         if (why := self.absent()) is not None:
             raise UnavailableError(why)
-        with TemporaryDirectory(prefix="roughfilm-") as place:
-            request, result = Path(place) / "problem.json", Path(place) / "result.json"
+        with scratch_directory() as place:
+            request, result = place / "problem.json", place / "result.json"
             request.write_text(json.dumps(problem), encoding="utf-8")
             python = Path(os.environ[self.variable]) / "bin" / "python"
             ended = subprocess.run(
                 [*terminate_with_parent(), python, PROGRAMS / program, *arguments, request, result],
-                env=os.environ | one_thread(),
+                env=os.environ | one_thread() | {"TMPDIR": str(place)},
                 capture_output=True,
                 text=True,
                 check=False,
@@ -127,8 +127,8 @@ def _mean_gap(scene: DryContact, solver: str, resolution: int) -> Measured:
         "violation": VIOLATION,
         "repeats": 3,
     }
-    with TemporaryDirectory(prefix="roughfilm-") as place:
-        path = Path(place) / "heights.npy"
+    with scratch_directory() as place:
+        path = place / "heights.npy"
         np.save(path, heights)
         answer = CONTACT.run("run.py", solver, path, problem=problem)
     if answer["violation"] > VIOLATION:

@@ -13,14 +13,35 @@ from typing import Any
 from roughfilm.charts.family import Ask, ChartFamily, Measured, ReferenceValue
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.contact.foundation.files import write_json
+from roughfilm.contact.foundation.reading.json_entries import from_json
+from roughfilm.contact.foundation.reading.regular import read_bytes
 from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.rom.ladder.provenance import code, commit, machine, versions
 
 MEASURING = ("cells.py", "families.py", "family.py", "openfoam.py", "peer_runs.py")
 """The files of this folder on which the answers depend."""
 
+MAX_BYTES = 100_000_000
+"""Largest size of a file of answers that is read, bytes."""
+
 TRUTH = "truth"
 """Name of the reference among the stored answers."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class StoredAnswer:
+    """One answer in a file, and when it was ``taken``."""
+
+    found: ReferenceValue | Measured
+    taken: dict[str, Any]
+
+
+@dataclass(frozen=True, kw_only=True)
+class StoredAnswers:
+    """The content of a file of answers: the answers by name, and the ``identity`` of what made them."""
+
+    identity: dict[str, Any]
+    answers: dict[str, StoredAnswer]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,7 +134,9 @@ def answers(family: ChartFamily, path: Path, step: Callable[[float, str], None])
 def known(path: Path) -> dict[str, Any]:
     """The answers in a file by name; empty if it is absent, damaged, or of other code, versions or machine."""
     try:
-        entries = json.loads(path.read_text(encoding="utf-8"))
-        return dict(entries["answers"]) if entries["identity"] == identity() else {}
-    except (OSError, ValueError, LookupError, TypeError):
+        text = read_bytes(path, MAX_BYTES, "measure again")
+        from_json(text, StoredAnswers)
+        entries = json.loads(text)
+    except ValueError:
         return {}
+    return dict(entries["answers"]) if entries["identity"] == identity() else {}

@@ -1,17 +1,19 @@
 """roughfilm cache: the tables of surfaces and series of leakage that are kept for later runs."""
 
-import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Annotated, Any
 
-import h5py
 import typer
 from rich.table import Table
 
 from roughfilm.contact.foundation.cache import LIMIT_BYTES, Entry, entries, trim, user_directory
+from roughfilm.contact.foundation.checked_hdf5 import has_mark
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.homogenization.table.store import MARK as TABLE_MARK
+from roughfilm.rom.homogenization.table.store import kept_part
+from roughfilm.rom.seal.leakage.series import kept_rows
 from roughfilm.terminal.console import AsJson, print_json
 from roughfilm.terminal.results import print_all, table_of
 
@@ -88,19 +90,16 @@ def _entry(entry: Entry, described: Described) -> Mapping[str, Any]:
 
 
 def _described(entry: Entry) -> Described:
-    """What an entry holds, from the attributes of its file; a damaged one is removed when it is needed."""
+    """What an entry holds; a damaged one is removed when it is needed."""
     try:
-        with h5py.File(entry.path, "r") as file:
-            if "points" in file:
-                making = json.loads(file.attrs["making"])
-                kind = making.get("kind", "") + ("" if making["complete"] else ", unfinished")
-                points = len(file["points/separation"])
-                return Described(surface=making.get("surface", ""), kind=kind, points=points, cpu_s=making["cpu_s"])
-            rows = file["series/cpu_s"][()]
-            kind = "leakage by load" if rows.size else "sealing loads"
-            surface = str(file.attrs.get("surface", ""))
-            return Described(surface=surface, kind=kind, points=rows.size, cpu_s=float(rows.sum()) or None)
-    except (OSError, LookupError, ValueError):
+        if has_mark(entry.path, TABLE_MARK):
+            table, making = kept_part(entry.path)
+            kind = making.kind + ("" if making.complete else ", unfinished")
+            return Described(surface=making.surface, kind=kind, points=len(table.points), cpu_s=making.cpu_s)
+        rows, surface = kept_rows(entry.path)
+        kind = "leakage by load" if rows else "sealing loads"
+        return Described(surface=surface, kind=kind, points=len(rows), cpu_s=sum(row.cpu_s for row in rows) or None)
+    except InputError:
         return Described(surface="", kind="damaged")
 
 

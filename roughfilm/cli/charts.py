@@ -12,12 +12,14 @@ from roughfilm.charts.judgement import WITHIN, Chart, columns_of, entries_of, ju
 from roughfilm.charts.store import answers
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.contact.foundation.files import write_json
+from roughfilm.contact.foundation.writing.kinds import JSON, PAGE, PICTURE
 from roughfilm.figures.rendering import embedded
 from roughfilm.ladder import models
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.studies.table import write_csv
 from roughfilm.terminal.console import AsJson, OutDirectory, make_directory, print_json, progress_bar
+from roughfilm.terminal.output_file import refuse_unwritable
 from roughfilm.terminal.results import print_all, print_left_out, table_of, written
 
 EXAMPLES = (
@@ -42,6 +44,7 @@ def command(
         if name not in FAMILIES:
             raise InputError(f"--family: got {name!r}; it must be one of {', '.join(FAMILIES)}")
     make_directory(out)
+    refuse_unwritable((out / "charts.html", PAGE), (out / "charts.png", PICTURE), (out / "charts.json", JSON))
     with alone(out):
         charts, without = measured(names, out)
         if not charts:

@@ -12,6 +12,7 @@ from rich.table import Table
 from roughfilm.batch.jobs import Job, jobs_of, run_all
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.files import write_json
+from roughfilm.contact.foundation.writing.kinds import PAGE, entries_from, refuse_to_replace
 from roughfilm.figures.rendering import draw_apart, embedded
 from roughfilm.figures.view import views
 from roughfilm.ladder import models
@@ -24,7 +25,7 @@ from roughfilm.rom.ladder.kind import Scene, kind_of, kind_of_scene
 from roughfilm.rom.ladder.model import Model, best
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
-from roughfilm.rom.ladder.store import as_entries
+from roughfilm.rom.ladder.store import STORED, as_entries
 from roughfilm.rom.studies.comparison import (
     effects,
     points,
@@ -43,6 +44,7 @@ from roughfilm.terminal.console import (
     make_directory,
     print_json,
 )
+from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.results import print_all, print_left_out, quantity_table, table_of
 from roughfilm.words.cost import cost_in_words
 from roughfilm.words.summary import judgement, value_of
@@ -66,19 +68,23 @@ def command(
 ) -> None:
     """Run every model that applies and write report.html, results (.h5) and figures."""
     read = load_scene(scene, set_ or ())
+    page = out / "report.html"
     make_directory(out)
+    refuse_unwritable((page, PAGE), (out / "chart.json", entries_from("reference")))
     ladder = models(read.kind)
     left_out = {model.name: reason for model in ladder if (reason := _reason_to_leave_out(model, read))}
     failed: dict[str, str] = {}
     jobs = jobs_of(read, [model for model in ladder if model.name not in left_out], out / RESULTS, grids)
-    runs = run_all(jobs, failed)
-    results = _finest(runs)
-    absent = {**left_out, **failed}
-    if not results:
-        raise ConvergenceError("no model solved the scene: " + "; ".join(f"{k}: {v}" for k, v in absent.items()))
-
-    report = _judge(read, ladder, results, [result for _, result in runs], absent, out)
-    write_comparison(report, out / "report.html")
+    for job in jobs:
+        refuse_to_replace(job.path, STORED)
+    with alone(page, "comparison"):
+        runs = run_all(jobs, failed)
+        results = _finest(runs)
+        absent = {**left_out, **failed}
+        if not results:
+            raise ConvergenceError("no model solved the scene: " + "; ".join(f"{k}: {v}" for k, v in absent.items()))
+        report = _judge(read, ladder, results, [result for _, result in runs], absent, out)
+        write_comparison(report, page)
     if as_json:
         print_json(_entries(report, out))
     else:

@@ -10,11 +10,13 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
+from roughfilm.contact.foundation.checked_hdf5 import marked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import to_si
+from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.mechanics.load_series import ContactSeries, estimated, solved
 from roughfilm.contact.mechanics.models import (
     GRID_MODELS,
@@ -27,7 +29,7 @@ from roughfilm.contact.mechanics.models import (
 )
 from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE
 from roughfilm.contact.mechanics.solid import Solid, composite_modulus
-from roughfilm.contact.mechanics.store import UNITS, Row
+from roughfilm.contact.mechanics.store import MARK, UNITS, Row
 from roughfilm.contact.read import HeightMap, parse_spacing, read_height_map
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.terminal.console import NUMERICS, OUTPUT, AsJson, ReportFile, Spacing, progress_bar
@@ -113,7 +115,7 @@ def command(
     if not MIN_TOLERANCE <= tolerance < 1:
         raise InputError(f"--tolerance: got a tolerance of {tolerance:g}; it must be {MIN_TOLERANCE:g} to 1")
     stiffness = composite_modulus(body, counter)
-    refuse_unwritable(out, report)
+    refuse_unwritable((out, marked(MARK)), (report, PAGE))
     with alone(out, "series"), progress_bar(len(pressures) + 1) as advance:
         advance(0, f"reading {surface.name}")
         periodic, otherwise = boundary is Boundary.PERIODIC, ", --boundary free takes it as it stands"

@@ -11,6 +11,7 @@ from rich.table import Table
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.contact.foundation.timing import stopwatch
+from roughfilm.contact.foundation.writing.kinds import JSON, PAGE
 from roughfilm.interface.curves import checked_cells
 from roughfilm.ladder import models
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis, analyse_effects
@@ -19,10 +20,10 @@ from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
 from roughfilm.terminal.console import AsJson, Overrides, ScenePath, make_directory, progress_bar
-from roughfilm.terminal.output_file import refuse_unwritable
+from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.effects import AT_FILM, UNDER_LOAD, cell, sentences, shown_quantities
-from roughfilm.words.numbers import finite
+from roughfilm.words.numbers import finite_entries
 
 EXAMPLES = ("roughfilm effects scripts/examples/scenes/pad.toml --out pad",)
 
@@ -58,20 +59,21 @@ def command(
         )
     cells = checked_cells(bearing, resolution)
     make_directory(out)
-    refuse_unwritable(page)
-    with progress_bar(1.0) as advance:
-        analysis = analyse_effects(bearing, cells, models(), advance)
-    entries = _entries(analysis)
-    entries["numerics"] = {
-        "resolution": cells,
-        "residual": max(study.residual for study in _studies(analysis)),
-        "balance": 0.0 if analysis.under_load is None else analysis.under_load.balance,
-        **spent(),
-    }
-    write_json(entries, out / "effects.json")
-    from roughfilm.pages.effects import write_page  # matplotlib is slow to import
+    refuse_unwritable((page, PAGE), (out / "effects.json", JSON))
+    with alone(page, "analysis"):
+        with progress_bar(1.0) as advance:
+            analysis = analyse_effects(bearing, cells, models(), advance)
+        entries = _entries(analysis)
+        entries["numerics"] = {
+            "resolution": cells,
+            "residual": max(study.residual for study in _studies(analysis)),
+            "balance": 0.0 if analysis.under_load is None else analysis.under_load.balance,
+            **spent(),
+        }
+        write_json(entries, out / "effects.json")
+        from roughfilm.pages.effects import write_page  # matplotlib is slow to import
 
-    write_page(analysis, entries, out)
+        write_page(analysis, entries, out)
     summary = written(_in_words(analysis), page, out / "effects.json")
     show_result({**entries, "report": str(page)}, _shown(analysis), as_json=as_json, summary=summary)
 
@@ -84,10 +86,10 @@ def _entries(analysis: EffectAnalysis) -> dict[str, Any]:
     """The object of ``--json``, without the cost."""
     film, loaded, inertia = analysis.at_film, analysis.under_load, analysis.loaded_inertia
     thicker = analysis.thicker and asdict(analysis.thicker)
-    return {
+    entries = {
         "quantities": {name: asdict(one) for name, one in film.full.items()}
         | {f"{name} under load": asdict(one) for name, one in (loaded.full.items() if loaded else ())},
-        "numbers": {name: finite(value) for name, value in bearing_numbers(analysis.scene).items()},
+        "numbers": bearing_numbers(analysis.scene),
         "treatments": [asdict(one) for one in analysis.treated],
         "left_out": analysis.left_out,
         "at_film": _study_entries(film),
@@ -100,6 +102,7 @@ def _entries(analysis: EffectAnalysis) -> dict[str, Any]:
             scene=scene_entries(analysis.scene),
         ),
     }
+    return {name: finite_entries(one) for name, one in entries.items()}
 
 
 def _study_entries(study: EffectStudy) -> dict[str, Any]:

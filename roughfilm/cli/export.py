@@ -7,7 +7,8 @@ import typer
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import to_si
-from roughfilm.contact.meshes.files import mesh_format, write_mesh
+from roughfilm.contact.foundation.writing.kinds import as_input
+from roughfilm.contact.meshes.files import KINDS, mesh_format, write_mesh
 from roughfilm.contact.meshes.mesh import CellType, Mesh
 from roughfilm.contact.meshes.surface import surface_mesh
 from roughfilm.contact.surfaces.files import read_surface
@@ -20,8 +21,8 @@ from roughfilm.rom.meshes.result_mesh import PLACES, labelled, result_mesh
 from roughfilm.rom.meshes.walls_mesh import GapPart, gap_mesh, wall_mesh
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
-from roughfilm.terminal.console import OUTPUT, AsJson, Overrides, print_json, print_message
-from roughfilm.terminal.output_file import refuse_same
+from roughfilm.terminal.console import OUTPUT, AsJson, Overrides, Overwrite, print_json, print_message
+from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
 from roughfilm.terminal.results import print_all, written
 
 EXAMPLES = (
@@ -46,14 +47,15 @@ def command(
     spacing: Annotated[
         str | None, typer.Option(help="Distance between the points of a surface whose file does not hold it: 1um.")
     ] = None,
+    overwrite: Overwrite = False,
     set_: Overrides = None,
     as_json: AsJson = False,
 ) -> None:
     """Write a gap, a surface or a result as a mesh for other tools: lengths in metres, data named with their units."""
-    refuse_same({"FILE": file, "--out": out})
-    mesh_format(out)
+    refuse_same({"FILE": as_input(file), "--out": out})
+    refuse_unwritable((out, KINDS[mesh_format(out)]), overwrite=overwrite)
     mesh, origin = _mesh(file, what, resolution, layers, _metres(spacing), set_)
-    mesh_out = write_mesh(mesh, out)
+    mesh_out = write_mesh(mesh, out, overwrite=overwrite)
     name, unit = CONTENT.get(mesh_out.cell_type, ("area", "m^2"))
     origin["left_out"] = sorted({*origin["left_out"], *_data(mesh)} - set(_data(mesh_out)))
     if as_json:

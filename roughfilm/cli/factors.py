@@ -11,12 +11,13 @@ import typer
 from rich.table import Table
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.checked_hdf5 import HEADER_BYTES
+from roughfilm.contact.foundation.checked_hdf5 import HEADER_BYTES, marked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import to_si
+from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
 from roughfilm.contact.read import HeightMap, parse_spacing, periodicity_warnings, read_height_map
@@ -29,6 +30,7 @@ from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.homogenization.table.kept import kept_table, table_inputs
 from roughfilm.rom.homogenization.table.resume import Work, resumed_table
 from roughfilm.rom.homogenization.table.separation import Separations
+from roughfilm.rom.homogenization.table.store import MARK
 from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, tabulate
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import code
@@ -106,7 +108,7 @@ def command(
     if mean_gap is not None and tolerance is not None:
         raise InputError("--tolerance: belongs to a table; leave it or --gap out")
     accuracy, workers = INTERPOLATION_TOLERANCE if tolerance is None else tolerance, checked_threads(threads)
-    refuse_unwritable(out, report)
+    refuse_unwritable((out, marked(MARK)), (report, PAGE))
     with alone(out, "table"), progress_bar(1.0) as advance:
         advance(0, f"reading {surface.name}")
         contacts = _read_contacts(surface) if surface.is_file() and is_series(surface) else None
@@ -167,7 +169,7 @@ def _length(option: str, text: str | None, least: float = MIN_SPACING) -> float 
     except ValueError as error:
         raise InputError(f"{option} {text}: {error}") from None
     if not least <= length <= MAX_LENGTH:
-        raise InputError(f"{option} {text}: give a length above 0, of {MAX_LENGTH:g} m at most")
+        raise InputError(f"{option} {text}: give a length of {least:g} to {MAX_LENGTH:g} m")
     return length
 
 

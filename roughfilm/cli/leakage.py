@@ -12,6 +12,7 @@ from rich.table import Table
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.timing import stopwatch
+from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
@@ -20,7 +21,7 @@ from roughfilm.rom.seal.leakage.joint import joint_seals
 from roughfilm.rom.seal.leakage.percolation import Threshold
 from roughfilm.rom.seal.leakage.series import SOUGHT, Row
 from roughfilm.rom.seal.scene import Seal
-from roughfilm.rom.studies.table import Column, write_csv, write_hdf5
+from roughfilm.rom.studies.table import TABLE, Column, table_beginning, write_csv, write_hdf5
 from roughfilm.terminal.console import (
     AsJson,
     OutDirectory,
@@ -71,7 +72,7 @@ def command(
         )
     workers, page = checked_threads(threads), out / "report.html"
     make_directory(out)
-    refuse_unwritable(page)
+    refuse_unwritable((page, PAGE), (out / "table.csv", table_beginning("load (Pa)")), (out / "table.h5", TABLE))
     with (
         alone(out / "leakage.h5", "series"),
         alone(out / "contacts.h5", "series of contacts"),

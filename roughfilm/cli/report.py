@@ -1,5 +1,6 @@
 """roughfilm report: the page of a study: its answers, the models that would have done, and the cost."""
 
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
@@ -7,8 +8,10 @@ import typer
 
 from roughfilm.batch.plan import read_batch
 from roughfilm.contact.foundation.files import write_json
+from roughfilm.contact.foundation.writing.kinds import PAGE, entries_from
 from roughfilm.rom.ladder.provenance import machine
-from roughfilm.terminal.console import AsJson, make_directory, print_json, print_message, progress_bar
+from roughfilm.terminal.console import AsJson, Overwrite, make_directory, print_json, print_message, progress_bar
+from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.results import print_all, table_of, written
 from roughfilm.words.numbers import span
 
@@ -25,20 +28,24 @@ def command(
         str | None,
         typer.Option(metavar="QUANTITY", help="The quantity that is asked for (default: the first that varies)."),
     ] = None,
+    overwrite: Overwrite = False,
     as_json: AsJson = False,
 ) -> None:
     """Write the page of a study: the best case and curves, the models that would have done, and cost."""
-    with progress_bar(1.0) as advance:
+    path = out or directory / "report.html"
+    with ExitStack() as stack:
+        advance = stack.enter_context(progress_bar(1.0))
         advance(0.0, "reading the results")
         batch = read_batch(directory)
+        make_directory(path.parent)
+        refuse_unwritable((path, PAGE), (path.with_suffix(".json"), entries_from("reference")), overwrite=overwrite)
+        stack.enter_context(alone(path, "report"))
         from roughfilm.pages.sweep import study_of, write_sweep  # matplotlib is slow to import
 
         study = study_of(batch)
-        path = out or directory / "report.html"
-        make_directory(path.parent)
         advance(0.2, "drawing the page")
-        entries, sentence = write_sweep(study, want, path)
-    write_json({**entries, "machine": machine()}, path.with_suffix(".json"))
+        entries, sentence = write_sweep(study, want, path, overwrite=overwrite)
+        write_json({**entries, "machine": machine()}, path.with_suffix(".json"), overwrite=overwrite)
     if as_json:
         print_json({**entries, "report": str(path)})
         return
@@ -55,6 +62,8 @@ def command(
         print_all([table])
     for line in entries["missing"]:
         print_message("missing", line)
+    for line in entries["edited"]:
+        print_message("warning", line)
     if entries["unranked"]:
         print_message("warning", entries["unranked"])
     print_all([written(sentence, path)])

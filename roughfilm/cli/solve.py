@@ -19,11 +19,12 @@ from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
-from roughfilm.rom.ladder.store import as_entries, refuse_other_file, save
+from roughfilm.rom.ladder.store import RESULT, as_entries, save
 from roughfilm.terminal.completion import models_beginning_with
 from roughfilm.terminal.console import (
     AsJson,
     Overrides,
+    Overwrite,
     Processes,
     Resolution,
     ScenePath,
@@ -35,7 +36,7 @@ from roughfilm.terminal.console import (
 )
 from roughfilm.terminal.layout import wrapped
 from roughfilm.terminal.output_file import refuse_unwritable
-from roughfilm.terminal.results import print_all, quantity_table
+from roughfilm.terminal.results import print_all, quantity_table, written
 from roughfilm.words.cost import cost_in_words
 from roughfilm.words.summary import summary
 
@@ -64,6 +65,7 @@ def command(
     ] = None,
     quantity: Want = None,
     out: Annotated[Path | None, typer.Option(help="Write the result with its fields here (HDF5).")] = None,
+    overwrite: Overwrite = False,
     set_: Overrides = None,
     resolution: Resolution = None,
     tolerance: Tolerance = None,
@@ -74,8 +76,7 @@ def command(
     """Solve a scene by the cheapest model that is accurate enough, or by a given one."""
     read = load_scene(scene, set_ or ())
     if out is not None:
-        refuse_other_file(out)
-        refuse_unwritable(out)
+        refuse_unwritable((out, RESULT), overwrite=overwrite)
     asked, fraction = wanted(read, quantity), DEFAULT_TOLERANCE if within is None else tolerance_of(within)
     own = {"resolution": resolution, "tolerance": tolerance, "scheme": scheme}
     own["processes"] = processes if processes != 1 else None
@@ -105,11 +106,11 @@ def command(
     if choice:
         messages.print(wrapped(choice, messages.width), soft_wrap=True, markup=False)
     if out is not None:
-        save(result, out)
+        save(result, out, overwrite=overwrite)
     if as_json:
         print_json(as_entries(result))
     else:
-        print_all(_shown(read, find(read.kind, result.model), result, asked, fraction))
+        print_all(_shown(read, find(read.kind, result.model), result, asked, fraction, out))
 
 
 def _choice(advice: Advice) -> str:
@@ -121,7 +122,9 @@ def _choice(advice: Advice) -> str:
     return f"{taken.model} at resolution {taken.resolution}: {why}, {taken.why}"
 
 
-def _shown(scene: Scene, by: Model, result: Result, quantity: str, within: float) -> Iterator[Table | str]:
+def _shown(
+    scene: Scene, by: Model, result: Result, quantity: str, within: float, out: Path | None
+) -> Iterator[Table | str]:
     """The result for people."""
     yield quantity_table(result)
     numbers = result.numerics
@@ -135,4 +138,4 @@ def _shown(scene: Scene, by: Model, result: Result, quantity: str, within: float
     yield f"{by.name} {by.applies(scene).reason}"
     yield from (f"errors of {by.name}: {line}" for line in error_lines(kind_of_scene(scene), result))
     yield from (f"warning: {warning}" for warning in result.warnings)
-    yield summary(result, quantity, within)
+    yield written(summary(result, quantity, within), out)

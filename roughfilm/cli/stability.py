@@ -10,6 +10,8 @@ import typer
 from roughfilm.batch.directory import alone
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import write_json
+from roughfilm.contact.foundation.reading.regular import read_bytes
+from roughfilm.contact.foundation.writing.kinds import PAGE, entries_from
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import code, versions
 from roughfilm.rom.studies.table import write_csv
@@ -22,6 +24,7 @@ from roughfilm.stability.laws import MIXED, SEAL
 from roughfilm.stability.load import LOAD
 from roughfilm.stability.pocket import POCKET
 from roughfilm.terminal.console import NUMERICS, AsJson, Jobs, OutDirectory, make_directory, print_json, process_count
+from roughfilm.terminal.output_file import refuse_unwritable
 from roughfilm.terminal.results import print_all, print_left_out, written
 
 EXAMPLES = (
@@ -32,6 +35,9 @@ EXAMPLES = (
 FAMILIES: dict[str, StabilityMap] = {
     one.name: one for one in (POCKET, CAVITATION, CONTACT, CELL, SEAL, MIXED, LOAD, GAP)
 }
+
+MAX_BYTES = 100_000_000
+"""Largest size of a stored map that is read, bytes."""
 
 ALL = "all"
 
@@ -61,6 +67,7 @@ def command(
     if family == ALL and resolution is not None:
         raise InputError(f"--resolution: got {resolution} for {ALL}; every map counts it in its own way, leave it out")
     make_directory(out)
+    refuse_unwritable((out / "report.html", PAGE), (out / "stability.json", entries_from("family")))
     if family != ALL:
         maps = [_mapped(family, out, resolution, processes)]
         entries: dict[str, Any] = dict(maps[0])
@@ -95,7 +102,7 @@ def _known(out: Path) -> dict[str, Entries | None]:
 
 def _same(path: Path, resolution: int) -> Entries | None:
     try:
-        stored: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        stored: dict[str, Any] = json.loads(read_bytes(path, MAX_BYTES, "map again"))
         made = stored["provenance"]
         same = (made["code"], made["versions"], stored["resolution"]) == (code(), versions(), resolution)
         return stored if same else None

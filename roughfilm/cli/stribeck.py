@@ -9,11 +9,13 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
+from roughfilm.contact.foundation.checked_hdf5 import marked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.contact.foundation.timing import stopwatch
+from roughfilm.contact.foundation.writing.kinds import JSON, PAGE
 from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
-from roughfilm.rom.bearing.mixed.store import NUMBERS, UNITS, write_csv
+from roughfilm.rom.bearing.mixed.store import MARK, NUMBERS, UNITS, write_csv
 from roughfilm.rom.bearing.mixed.stribeck import MAX_CELLS, MIN_CELLS, RESOLUTION, StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Progress
@@ -85,7 +87,7 @@ def command(
         raise InputError(f"--table: got {table}, but the scene has no [asperities]; add them or leave the table out")
     page, stored = out / "report.html", out / "stribeck.h5"
     make_directory(out)
-    refuse_unwritable(page)
+    refuse_unwritable((page, PAGE), (stored, marked(MARK)), (stored.with_suffix(".json"), JSON))
     with alone(stored, "sweep"), progress_bar(1.0) as advance:
         made = partial(
             wall_of, bearing, pressures[-1], table, out / "table.h5", _between(advance, 0.0, 0.5), resolution

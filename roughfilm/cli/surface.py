@@ -8,19 +8,21 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
+from roughfilm.contact.foundation.checked_hdf5 import marked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.parameters.roughness_parameters import bearing_parameters, parameters
 from roughfilm.contact.preparation.prepare import Prepared, prepare
 from roughfilm.contact.preparation.recipe import AS_IT_IS, Reading, Recipe, load_recipe, recipe_entries
 from roughfilm.contact.surfaces.files import read_surface
-from roughfilm.contact.surfaces.store import save_surface
+from roughfilm.contact.surfaces.store import MARK, save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
-from roughfilm.terminal.console import OUTPUT, AsJson, ReportFile, progress_bar
-from roughfilm.terminal.output_file import refuse_same
+from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, progress_bar
+from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.numbers import in_unit
 from roughfilm.words.surface import preparation_steps
@@ -42,6 +44,7 @@ def command(
         Path | None, typer.Option(help="Write the prepared surface here (HDF5).", rich_help_panel=OUTPUT)
     ] = None,
     report: ReportFile = None,
+    overwrite: Overwrite = False,
     as_json: AsJson = False,
 ) -> None:
     """Read a surface, prepare it as a periodic cell, and show it before and after."""
@@ -50,6 +53,7 @@ def command(
     with progress_bar(STEP_COUNT) as advance:
         advance(0, f"reading {file.name}")
         surface = _read(file, steps)
+        refuse_unwritable((out, marked(MARK)), (report, PAGE), overwrite=overwrite)
         if surface.periodic and recipe is None:
             steps = load_recipe(None, set_ or (), AS_IT_IS)
         advance(1, "preparing")
@@ -69,7 +73,10 @@ def command(
             record=dict(prepared.record),
         )
         with ExitStack() as both:  # neither is renamed into place before both are whole
-            surface_file, page = (path and both.enter_context(replacing(path)) for path in (out, report))
+            surface_file, page = (
+                path and both.enter_context(replacing(path, kind, overwrite=overwrite))
+                for path, kind in ((out, marked(MARK)), (report, PAGE))
+            )
             if surface_file is not None:
                 advance(3, "writing the surface")
                 save_surface(prepared.surface, surface_file)

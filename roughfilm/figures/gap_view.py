@@ -8,6 +8,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import PICTURE
 from roughfilm.figures.rendering import scalar_bar
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
@@ -74,7 +75,7 @@ def draw(result: Result, picture: Path) -> None:
     away = max(length, bounds[3] - bounds[2])
     plotter.camera_position = [tuple(middle + away * np.array([-0.85, -1.2, 1.15])), tuple(middle), (0, 0, 1)]
     plotter.camera.view_angle = 34.0
-    with replacing(picture) as scratch:
+    with replacing(picture, PICTURE) as scratch:
         plotter.screenshot(str(scratch))
 
 

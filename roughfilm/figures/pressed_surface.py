@@ -1,13 +1,14 @@
 """A surface in space under loads, by pyvista: python -m roughfilm.figures.pressed_surface VIEWS.npz PICTURE.png."""
 
 import sys
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import PICTURE
+from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.contact.mechanics.gap_map import GapMap
 from roughfilm.figures.rendering import draw_apart, embedded, scalar_bar
 
@@ -23,8 +24,8 @@ CONTACT = "#d7301f"
 def view_picture(views: Sequence[GapMap]) -> tuple[str | None, str]:
     """The address of an image that holds the picture, drawn in a process of its own, or None and the reason."""
     first = views[0]
-    with tempfile.TemporaryDirectory() as folder:
-        file, picture = Path(folder) / "views.npz", Path(folder) / "contacts.png"
+    with scratch_directory() as folder:
+        file, picture = folder / "views.npz", folder / "contacts.png"
         np.savez(
             file,
             gaps=np.array([view.gap for view in views]),
@@ -81,7 +82,7 @@ def draw(file: Path, picture: Path) -> None:
             (0, 0, 1),
         ]
         plotter.camera.view_angle = 34.0
-    with replacing(picture) as scratch:
+    with replacing(picture, PICTURE) as scratch:
         plotter.screenshot(str(scratch))
 
 

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.rom.ladder.model import Availability
 
 if TYPE_CHECKING:
@@ -67,7 +68,11 @@ def probe() -> Availability:
 def _apart(*arguments: str) -> Availability:
     try:
         run = subprocess.run(
-            [sys.executable, "-P", *arguments], capture_output=True, text=True, timeout=TIME_LIMIT_S, check=False
+            [*terminate_with_parent(), sys.executable, "-P", *arguments],
+            capture_output=True,
+            text=True,
+            timeout=TIME_LIMIT_S,
+            check=False,
         )
     except (OSError, subprocess.SubprocessError) as error:
         return Availability(available=False, detail=f"drawing did not end ({error}); {REMEDY}")

@@ -1,15 +1,24 @@
-"""OpenFOAM cases of a scene, which are written, run and read in a directory that is kept."""
+"""OpenFOAM cases of a scene or a study, which are written, run and read in a directory that is kept."""
 
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughfilm import ladder
+from roughfilm.batch.directory import alone
+from roughfilm.batch.executors import local
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.foamcases.openfoam.dialect import dialect_named
+from roughfilm.foamcases.openfoam.installation import dialect_here
 from roughfilm.foamcases.openfoam.model import CaseModel
+from roughfilm.generated.collect import collect
+from roughfilm.generated.manifest import read_manifest
+from roughfilm.generated.write import study_to_generate, write_cases
 from roughfilm.interface.scenes import checked_scene
+from roughfilm.interface.studies import read_table
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.ladder.request import Request
@@ -83,6 +92,7 @@ def write_case(
     tolerance: float | None = None,
     scheme: str | None = None,
     processes: int = 1,
+    dialect: str | None = None,
 ) -> OpenFOAMCase:
     """Write the OpenFOAM case of a scene: mesh, dictionaries, Allrun and a README with the units.
 
@@ -95,6 +105,8 @@ def write_case(
     tolerance : residual at which the solver stops; the model has a default.
     scheme : advection scheme, one of ``schemes`` of the model; the default is the first.
     processes : number of MPI processes of the run.
+    dialect : "com" for openfoam.com, "org" for openfoam.org 8 or later; the default is that of this machine's OpenFOAM,
+        or "com" without one.
 
     Returns
     -------
@@ -123,5 +135,91 @@ def write_case(
         remedy = f"it must be {' or '.join(known)}" if known else f"no model of a {scene.kind} has any"
         raise InputError(f"model: got {model!r}, which writes no OpenFOAM case; {remedy}")
     request = Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
-    by.write(scene, Path(directory), request)
+    by.write(scene, Path(directory), request, dialect=dialect_named(dialect) if dialect is not None else None)
     return OpenFOAMCase(scene, by, Path(directory))
+
+
+def write_study(
+    path: str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    *,
+    processes: int = 1,
+    dialect: str | None = None,
+    progress: Progress = silent,
+) -> list[Path]:
+    """Write the OpenFOAM cases of a study, with scripts to run them by hand or under Slurm.
+
+    Parameters
+    ----------
+    path : the study file (TOML), as :func:`roughfilm.load_study` reads it; OpenFOAM need not be on this machine.
+    out : the directory, which must be empty or not exist. ``Allrun.all`` in it runs all cases.
+    processes : number of MPI processes of each case.
+    dialect : "com" or "org", as in :func:`roughfilm.write_case`.
+    progress : called with the done fraction and a few words.
+
+    Returns
+    -------
+    list of Path
+        The directory of each case; :func:`roughfilm.collect_study` reads the results.
+
+    Raises
+    ------
+    InputError
+        If the file is not a study or is wrong, no model of it runs OpenFOAM, or the directory cannot be written.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> try:
+    ...     rf.write_study("scripts/examples/studies/pocket.toml", "cases")
+    ... except rf.InputError as error:
+    ...     print(error)
+    study.models: none of them runs OpenFOAM; name stokes or navier_stokes, or solve it with 'batch'
+    """
+    file, place = Path(path), Path(out)
+    study = study_to_generate(file)
+    if study is None:
+        raise InputError(f"{file}: is the scene of one case, not a study; write it with write_case")
+    written_in = dialect_here() if dialect is None else dialect_named(dialect)
+    manifest = write_cases(study, place, written_in, processes=processes, file=file, progress=progress)
+    return [place / one.directory for one in manifest.generated]
+
+
+def collect_study(
+    out: str | os.PathLike[str], *, processes: int = 1, progress: Progress = silent
+) -> dict[str, NDArray[Any]]:
+    """Read the OpenFOAM cases of a study that have finished, and write its results and tables.
+
+    Each case is checked as a run of this library is. Models of the study that need no OpenFOAM are solved here.
+
+    Parameters
+    ----------
+    out : the directory that :func:`roughfilm.write_study` wrote; its cases may still run.
+    processes : number of processes for the models that need no OpenFOAM.
+    progress : called with the done fraction and a few words.
+
+    Returns
+    -------
+    dict of arrays
+        The columns of ``out/table.h5``, as :func:`roughfilm.run_study` returns them. The column "outcome" says which
+        cases have not finished or failed, and "warnings" which were edited.
+
+    Raises
+    ------
+    InputError
+        If the directory holds no manifest of this version, is in use, or cannot be written.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> try:
+    ...     table = rf.collect_study("docs")
+    ... except rf.InputError as error:
+    ...     print(error)
+    docs: holds no manifest.json; name a directory that 'roughfilm generate' wrote
+    """
+    place = Path(out)
+    read_manifest(place)
+    with alone(place) as scratch:
+        collect(place, local(processes, scratch), progress)
+    return read_table(place / "table.h5")

@@ -1,16 +1,17 @@
 """Stribeck curves of a bearing, leakage of a seal over the load, and the effects in a bearing one by one."""
 
 import os
-import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
 from roughfilm import ladder
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.arrays import finite_arithmetic
+from roughfilm.contact.foundation.errors import InputError, unwritable
+from roughfilm.contact.foundation.ranges import in_range
 from roughfilm.contact.foundation.threads import checked_threads
-from roughfilm.contact.mechanics.checks import not_negative, positive
+from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.interface.rows import Rows
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis, analyse_effects
 from roughfilm.rom.bearing.mixed import stribeck as mixed
@@ -83,14 +84,10 @@ def stribeck(
     own = scene.load_pressure
     if loads is None and own is None:
         raise InputError("loads: are missing; give them, or a scene with a load")
-    given = [own] if loads is None and own is not None else [positive("loads", load) for load in loads or ()]
-    return mixed.stribeck(
-        scene,
-        [not_negative("speeds", speed) for speed in speeds],
-        given,
-        resolution=resolution,
-        progress=progress,
-    )
+    given = [own] if loads is None and own is not None else [in_range("loads", load, "Pa") for load in loads or ()]
+    wanted = [in_range("speeds", speed, "m/s", zero=True) for speed in speeds]
+    with finite_arithmetic("stribeck"):
+        return mixed.stribeck(scene, wanted, given, resolution=resolution, progress=progress)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -157,14 +154,15 @@ def leakage_curve(
     """
     if not isinstance(scene, Seal):
         raise InputError(f"scene: got {_kind(scene)}; give a scene of kind 'seal'")
-    asked = None if loads is None else tuple(sorted(positive("loads", load) for load in loads))
+    asked = None if loads is None else tuple(sorted(in_range("loads", load, "Pa") for load in loads))
     if asked is not None and (not asked or asked[-1] > scene.hardness):
         raise InputError(f"loads: got {asked!r:.60}; give at least one, up to the hardness of {scene.hardness:g} Pa")
-    with nullcontext(directory) if directory is not None else tempfile.TemporaryDirectory() as place:
+    kept = nullcontext(directory) if directory is not None else scratch_directory()
+    with finite_arithmetic("leakage_curve"), kept as place:
         try:
             Path(place).mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise InputError(f"directory: {place} cannot be made ({error.strerror}); choose another place") from error
+            raise unwritable(f"directory: {place}", error, done="made") from error
         body = seal_setup(scene, Path(place))
         found = sealing(body, lambda done, words: progress(0.2 * done, words))
         series = chosen_loads(body, found) if asked is None else asked
@@ -211,7 +209,8 @@ def effects(scene: Scene, *, resolution: int | None = None, progress: Progress =
     """
     if not isinstance(scene, Bearing):
         raise InputError(f"scene: got {_kind(scene)}; give a bearing")
-    return analyse_effects(scene, checked_cells(scene, resolution), ladder.models(), progress)
+    with finite_arithmetic("effects"):
+        return analyse_effects(scene, checked_cells(scene, resolution), ladder.models(), progress)
 
 
 def checked_cells(scene: Bearing, resolution: int | None) -> int:

@@ -8,13 +8,14 @@ from roughfilm.rom.ladder import store
 from roughfilm.rom.ladder.result import Result
 
 
-def save(result: Result, path: str | os.PathLike[str]) -> None:
+def save(result: Result, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
     """Write a result with its fields and provenance to an HDF5 file, completely or not at all.
 
     Parameters
     ----------
     result : the result.
-    path : the file, usually ``*.h5``; an existing result file is replaced, any other existing file is not.
+    path : the file, usually ``*.h5``; an existing file of a result is replaced.
+    overwrite : whether an existing file of another kind is replaced too.
 
     Raises
     ------
@@ -34,7 +35,7 @@ def save(result: Result, path: str | os.PathLike[str]) -> None:
     """
     if not isinstance(result, Result):
         raise InputError(f"result: got {type(result).__name__}; give a Result, such as solve() returns")
-    store.save(result, Path(path))
+    store.save(result, Path(path), overwrite=overwrite)
 
 
 def load_result(path: str | os.PathLike[str]) -> Result:

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from roughfilm import ladder
+from roughfilm.contact.foundation.arrays import finite_arithmetic
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.interface.scenes import checked_scene
@@ -84,7 +85,8 @@ def advise(
     if isinstance(within, bool) or not isinstance(within, int | float) or not 0 < within < 1:
         raise InputError(f"within: got {within!r}; give a number above 0 and below 1, for example 0.05")
     wanted = advice.wanted(scene, quantity)
-    return advice.advise(scene, ladder.models(kind), quantity=wanted, within=within, progress=progress)
+    with finite_arithmetic("advise"):
+        return advice.advise(scene, ladder.models(kind), quantity=wanted, within=within, progress=progress)
 
 
 def solve(

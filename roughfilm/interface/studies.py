@@ -11,7 +11,7 @@ from roughfilm.batch.directory import alone
 from roughfilm.batch.executors import local
 from roughfilm.batch.progress import BatchProgress
 from roughfilm.batch.solve import solved_table
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import InputError, unwritable
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.studies import study, table
 
@@ -89,7 +89,7 @@ def run_study(
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InputError(f"out: {place} cannot be made ({error.strerror}); choose another place") from error
+        raise unwritable(f"out: {place}", error, done="made") from error
     with alone(place) as scratch:
         solved_table(loaded, place, BatchProgress(), local(processes, scratch), progress)
     return read_table(place / "table.h5")

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from roughfilm.contact.foundation.arrays import unmasked
+from roughfilm.contact.foundation.arrays import finite_arithmetic, unmasked
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.ranges import in_range
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.contact.mechanics.checks import not_negative, positive
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.half_space import Boundary
 from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
@@ -260,19 +260,21 @@ def press(
     """
     surface = surface_of(heights, spacing)
     solid = Solid(
-        modulus=positive("modulus", modulus),
-        poisson=not_negative("poisson", poisson),
-        hardness=hardness if hardness == math.inf else positive("hardness", hardness),
+        modulus=in_range("modulus", modulus, "Pa"),
+        poisson=in_range("poisson", poisson, "1", zero=True),
+        hardness=hardness if hardness == math.inf else in_range("hardness", hardness, "Pa"),
     )
-    body = Press(
-        surface.heights,
-        surface.spacing,
-        composite_modulus(solid),
-        hardness=solid.hardness,
-        boundary=boundary,
-        threads=threads,
-    )
-    return body.at(positive("load", load), tolerance=positive("tolerance", tolerance))
+    pressure, accuracy = in_range("load", load, "Pa"), in_range("tolerance", tolerance, "1")
+    with finite_arithmetic("press"):
+        body = Press(
+            surface.heights,
+            surface.spacing,
+            composite_modulus(solid),
+            hardness=solid.hardness,
+            boundary=boundary,
+            threads=threads,
+        )
+        return body.at(pressure, tolerance=accuracy)
 
 
 def flow_factors(
@@ -333,14 +335,12 @@ def flow_factors(
     """
     surface = surface_of(heights, spacing)
     walls = Separations(heights=surface.heights)
-    separation = walls.at_mean_gap(positive("gap", gap))
-    found = factors_of(
-        walls.gap(separation),
-        surface.spacing,
-        rule=FaceRule.LINEAR,
-        offset=not_negative("offset", offset),
-        progress=progress,
-    )
+    separation = walls.at_mean_gap(in_range("gap", gap, "m"))
+    added = in_range("offset", offset, "m", zero=True)
+    with finite_arithmetic("flow_factors"):
+        found = factors_of(
+            walls.gap(separation), surface.spacing, rule=FaceRule.LINEAR, offset=added, progress=progress
+        )
     return {
         **relative_quantities(found.factors, found.uncertainty),
         "mean_gap": Quantity(value=found.factors.mean_gap, unit="m"),

@@ -8,7 +8,9 @@ import jinja2
 
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.contact.foundation.writing.kinds import FIGURE, PAGE
 from roughfilm.rom.studies.comparison import Difference
+from roughfilm.terminal.layout import VISIBLE
 from roughfilm.words.cost import seconds
 from roughfilm.words.numbers import MIN_UNCERTAINTY, percent, share, span
 from roughfilm.words.units import scale_of
@@ -16,8 +18,10 @@ from roughfilm.words.units import scale_of
 TEMPLATES = Path(__file__).parent / "templates"
 
 
-def render(template: str | Path, path: Path, **entries: Any) -> None:
-    """Fill a template and write the page; InputError if it cannot be written.
+def render(template: str | Path, path: Path, *, overwrite: bool = False, **entries: Any) -> None:
+    """Fill a template and write the page, which replaces a page, and with ``overwrite`` any file but an input.
+
+    Raises InputError if it cannot be written.
 
     ``template`` is a name in ``templates`` beside this file, or a path elsewhere; such a template may extend those of
     ``templates`` and of the folder above it.
@@ -29,6 +33,7 @@ def render(template: str | Path, path: Path, **entries: Any) -> None:
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
+        finalize=_visible,
     )
     environment.filters.update(
         percent=percent,
@@ -44,15 +49,20 @@ def render(template: str | Path, path: Path, **entries: Any) -> None:
         span=lambda ends: "–" if ends is None else span(*ends),
     )
     page = environment.get_template(template.name).render(**entries)
-    with replacing(path) as scratch:
+    with replacing(path, PAGE, overwrite=overwrite) as scratch:
         scratch.write_text(page, encoding="utf-8", errors="replace")
 
 
 def write_figures(plots: Mapping[str, str], directory: Path) -> None:
     """Write each figure, SVG text by name, as a file of its own; InputError if it cannot be written."""
     for name, text in plots.items():
-        with replacing(directory / f"{name}.svg") as scratch:
+        with replacing(directory / f"{name}.svg", FIGURE) as scratch:
             scratch.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + text, encoding="utf-8")
+
+
+def _visible(value: Any) -> Any:
+    """The value, with control characters in a text such as a name as their codes."""
+    return value.translate(VISIBLE) if isinstance(value, str) else value
 
 
 def _number(value: float) -> str:

@@ -5,13 +5,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
 from roughfilm.batch.plan import TO_COME, Batch
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.figures import answers as drawn
 from roughfilm.figures.rendering import draw_apart, embedded
 from roughfilm.figures.sweep import errors_in_order, sweep_chart
@@ -52,6 +52,7 @@ from roughfilm.words.sweep import (
     common_scale,
     count_text,
     decision_sentence,
+    edited_sentences,
     largest_error_text,
     missing_sentences,
     optimum_sentence,
@@ -60,6 +61,9 @@ from roughfilm.words.sweep import (
     uncertainty_sentence,
     unranked_sentence,
 )
+
+EDITED = "the case was edited"
+"""Beginning of the warnings of a generated case that was edited before it was run."""
 
 SUFFICIENT = 0.05
 """Error within which a model would have done."""
@@ -92,6 +96,7 @@ class Study:
     settings : the other settings with a result.
     per_model : the setting of each model that is drawn, by model, the reference last.
     units : units of the quantities.
+    edited : the warnings of the cases that were edited since they were generated, by their number, by setting.
     """
 
     batch: Batch
@@ -104,6 +109,7 @@ class Study:
     settings: tuple[str, ...]
     per_model: Mapping[str, str]
     units: Mapping[str, str]
+    edited: Mapping[str, Mapping[int, str]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,7 +161,19 @@ def study_of(batch: Batch) -> Study:
         ),
         per_model=per_model,
         units={name: column.unit for name, column in batch.table.items()},
+        edited=_edited(batch, sweep),
     )
+
+
+def _edited(batch: Batch, sweep: Sweep) -> dict[str, dict[int, str]]:
+    """The warnings of the edited cases by their number, by setting; settings without such cases are left out."""
+    names = ("case", "setting", "warnings")
+    found: dict[str, dict[int, str]] = {}
+    if "warnings" in batch.table:
+        for case, setting, words in zip(*(map(str, batch.table[name].values) for name in names), strict=True):
+            if words.startswith(EDITED):
+                found.setdefault(setting, {})[sweep.names.index(case)] = words
+    return found
 
 
 def _kind(table: Mapping[str, Any]) -> str:
@@ -199,7 +217,7 @@ def shown_answers(study: Study, want: str | None) -> list[Shown]:
         values = study.sweep.found[top].get(name)
         if values is None or not np.isfinite(values).any():
             continue
-        answer = answer_of(study.sweep, top, name)
+        answer = answer_of(study.sweep, top, name, study.edited.get(top, ()))
         title, scale = title_of(study.kind, name), common_scale(study.units.get(name, "1"), values)
         found = [(one, best) for one in study.parameters if (best := optimum(study.parameters, one, answer))]
         sentences = [decision_sentence(answer, scale)]
@@ -222,7 +240,7 @@ def headline(study: Study, shown: Shown) -> str:
     return best_sentence(shown.answer, shown.title, shown.scale, study.parameters)
 
 
-def write_sweep(study: Study, want: str | None, path: Path) -> tuple[dict[str, Any], str]:
+def write_sweep(study: Study, want: str | None, path: Path, *, overwrite: bool = False) -> tuple[dict[str, Any], str]:
     """Write the page of a sweep; returns the entries of its JSON file and the sentence with the best case.
 
     Raises
@@ -239,18 +257,21 @@ def write_sweep(study: Study, want: str | None, path: Path) -> tuple[dict[str, A
     solved = {name: np.isfinite(study.sweep.cpu_s[name]) for name in study.sweep.found}
     missing = missing_sentences(solved, study.sweep.failures, len(study.batch.missing))
     failures = [one for one in study.sweep.failures if not one[2].startswith(("left out", TO_COME))]
+    edited = edited_sentences(study.edited)
     unranked = unranked_sentence(shown[0].answer, _reason(study, shown[0].answer))
     judged, ordered = _judgement(study), _ordered(study)
     pictures = _chosen_cases(study, shown[0])
     render(
         "sweep.html.j2",
         path,
+        overwrite=overwrite,
         name=study.batch.plan.name if study.batch.plan else study.batch.directory.name,
         study=study,
         sweep=study.sweep,
         headline=headline(study, shown[0]),
         others=[headline(study, one) for one in main[1:]],
         missing=[*missing, *filter(None, [unranked])],
+        edited=edited,
         failures=failures,
         listed_failures=LISTED_FAILURES,
         answers=[(one, *_figures(study, one)) for one in main],
@@ -285,6 +306,7 @@ def write_sweep(study: Study, want: str | None, path: Path) -> tuple[dict[str, A
         "failures": list(study.sweep.failures),
         "missing": missing,
         "unranked": unranked,
+        "edited": edited,
         "answers": [_answer_entries(study, one) for one in main],
         "inertia": judged["inertia_rows"],
         "sufficient": judged["cheapest"],
@@ -310,7 +332,7 @@ def _figures(study: Study, one: Shown) -> tuple[str, str | None]:
     """The figure of an answer over what varies, and the slices through the best case beside a map."""
     quantity = one.answer.quantity
     answers = [
-        answer_of(study.sweep, setting, quantity)
+        answer_of(study.sweep, setting, quantity, study.edited.get(setting, ()))
         for setting in reversed([*study.per_model.values()])
         if np.isfinite(study.sweep.found[setting][quantity]).any()
     ]
@@ -398,8 +420,8 @@ def _pictures(study: Study, result: Result, case: int, *, flow: bool) -> tuple[l
     if not flow or "vertices" not in result.fields or not study.view.drawing:
         return plots, ""
     file = study.batch.result_path(study.sweep.names[case], study.reference.setting)
-    with TemporaryDirectory() as scratch:
-        picture = Path(scratch) / "flow.png"
+    with scratch_directory() as scratch:
+        picture = scratch / "flow.png"
         return plots, embedded(picture) if draw_apart(study.view.drawing, file, picture).available else ""
 
 

@@ -1,12 +1,13 @@
 """Words that the shell completes after a Tab: kinds and models; files are completed by the shell itself."""
 
 import pkgutil
-import tomllib
 from pathlib import Path
 
 import typer
 
 from roughfilm import foamcases, rom
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.toml import read_toml
 
 
 def kinds_beginning_with(incomplete: str) -> list[str]:
@@ -37,8 +38,7 @@ def _models_by_kind() -> dict[str, frozenset[str]]:
 def _kind_of_file(path: Path | str | None) -> str | None:
     """The kind that a scene file names; None where it cannot be read."""
     try:
-        with Path(path or "").open("rb") as file:
-            kind = tomllib.load(file).get("kind")
-    except (OSError, ValueError):
+        kind = read_toml(Path(path or ""), "").get("kind")
+    except InputError:
         return None
     return kind if isinstance(kind, str) else None

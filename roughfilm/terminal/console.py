@@ -1,8 +1,8 @@
 """Options of the commands, their consoles and progress bars, and one line and an exit code for every error."""
 
 import functools
-import io
 import json
+import logging
 import os
 import re
 import shutil
@@ -17,13 +17,17 @@ from types import FrameType
 from typing import Annotated, Any, Literal, TextIO
 
 import typer
-from rich.console import Console
+from rich.console import Console, ConsoleOptions, RenderableType
 from rich.markup import escape
+from rich.segment import Segment
 from typer.exceptions import TyperException
 
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
+from roughfilm.contact.foundation.brief import short_message
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError, unwritable
 from roughfilm.contact.foundation.timing import running_cost
-from roughfilm.terminal.layout import CHARSET_ERRORS, wrapped
+from roughfilm.contact.foundation.writing.kinds import protected_inputs
+from roughfilm.terminal.layout import visible, wrapped
+from roughfilm.terminal.streams import prepare_streams
 
 BAD_INPUT, NOT_CONVERGED, MISSING = 2, 3, 4
 
@@ -64,6 +68,12 @@ OutDirectory = Annotated[
 ReportFile = Annotated[
     Path | None, typer.Option("--report", help="Write a page with figures here (HTML).", rich_help_panel=OUTPUT)
 ]
+Overwrite = Annotated[
+    bool,
+    typer.Option(
+        "--overwrite", help="Replace the output file, whatever it is; an input never is.", rich_help_panel=OUTPUT
+    ),
+]
 Resolution = Annotated[
     int | None, typer.Option(help="Nodes or mesh columns; see 'roughfilm models KIND'.", rich_help_panel=NUMERICS)
 ]
@@ -82,15 +92,13 @@ Spacing = Annotated[
 ]
 
 
-class Output(Console):
-    """Standard output. Where its reader ends early, as ``head`` does, the command ends too, without a message."""
+class _Terminal(Console):
+    """A console on which control characters in a text, such as a name, are shown and do not act."""
 
-    def on_broken_pipe(self) -> None:
-        """End the command; nothing more is written."""
-        try:
-            super().on_broken_pipe()
-        except SystemExit as stop:
-            raise typer.Exit(1) from stop
+    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterator[Segment]:
+        """Yield the segments of a renderable."""
+        for segment in super().render(renderable, options):
+            yield segment if segment.control else segment._replace(text=visible(segment.text))
 
 
 FILE_WIDTH = 80
@@ -98,13 +106,15 @@ FILE_WIDTH = 80
 
 
 def _width(stream: TextIO | None) -> int | None:
-    """The columns of a stream that is no terminal; None where the console finds them."""
-    is_terminal = stream is not None and stream.isatty()
-    return None if is_terminal or os.environ.get("COLUMNS", "").isdigit() else FILE_WIDTH
+    """The columns of a stream that is no terminal or has none; None where the console finds them."""
+    columns = os.environ.get("COLUMNS", "")
+    if columns.isdecimal():
+        return None if int(columns) else FILE_WIDTH
+    return None if stream is not None and stream.isatty() else FILE_WIDTH
 
 
-messages = Console(stderr=True, highlight=False, width=_width(sys.stderr))
-output = Output(highlight=False, width=_width(sys.stdout))
+messages = _Terminal(stderr=True, highlight=False, width=_width(sys.stderr))
+output = _Terminal(highlight=False, width=_width(sys.stdout))
 
 
 def fail(error: Exception, code: int, command: Callable[..., None] | None = None) -> typer.Exit:
@@ -113,11 +123,16 @@ def fail(error: Exception, code: int, command: Callable[..., None] | None = None
     Where a line begins with the name of a parameter of the command, its option takes the place of the name.
     """
     options = {} if command is None else _options(command)
-    for fault in str(error).splitlines() or [""]:
+    for fault in str(error).split("\n"):
         line = re.sub(r"^\w+(?=:? )", lambda place: options.get(place[0], place[0]), fault)
         messages.print(f"[bold red]error:[/] {escape(line)}", soft_wrap=True)
     print_notes(error, style="dim")
     return typer.Exit(code)
+
+
+def _unusable(error: OSError) -> InputError:
+    """The error of the system with its file, where it names one, and the remedy."""
+    return unwritable(error.filename or "a file", error, done="read or written")
 
 
 def _options(command: Callable[..., None]) -> dict[str, str]:
@@ -129,12 +144,12 @@ def _options(command: Callable[..., None]) -> dict[str, str]:
 def print_notes(error: BaseException, style: str | None = None) -> None:
     """Print the notes that an exception carries."""
     for note in getattr(error, "__notes__", []):
-        messages.print(escape(note), style=style, soft_wrap=True)
+        messages.print(escape(short_message(note)), style=style, soft_wrap=True)
 
 
 def print_message(kind: str, text: str) -> None:
     """Print a message of a kind, such as "warning", on standard error; it is broken between words."""
-    line = escape(wrapped(f"{kind}: {text}", messages.width)).removeprefix(f"{kind}:")
+    line = escape(wrapped(short_message(f"{kind}: {text}"), messages.width)).removeprefix(f"{kind}:")
     messages.print(f"[yellow]{kind}:[/]{line}", soft_wrap=True)
 
 
@@ -145,8 +160,11 @@ def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
     def wrapped(*arguments: Any, **options: Any) -> None:
         out = options.get("out")
         makes_out = out is not None and not out.exists()
+        from roughfilm.contact.foundation.arrays import finite_arithmetic  # NumPy is slow to import
+
         try:
-            command(*arguments, **options)
+            with protected_inputs(), _stop_kept(), finite_arithmetic(command.__module__.rpartition(".")[2]):
+                command(*arguments, **options)
         except (InputError, ConvergenceError, UnavailableError) as error:
             codes = {InputError: BAD_INPUT, ConvergenceError: NOT_CONVERGED, UnavailableError: MISSING}
             code = next(code for kind, code in codes.items() if isinstance(error, kind))
@@ -156,14 +174,24 @@ def in_one_line(command: Callable[..., None]) -> Callable[..., None]:
                 stop.add_note(_what_is_left(out, makes_out))
             print_notes(stop)
             raise
-        except BrokenPipeError:
-            raise
         except OSError as error:
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # else Python reports it once more at exit
-            message = f"standard output: cannot be written ({error.strerror or error}); send it elsewhere"
-            raise fail(InputError(message), BAD_INPUT) from None
+            raise fail(_unusable(error), BAD_INPUT) from None
 
     return wrapped
+
+
+@contextmanager
+def _stop_kept() -> Iterator[None]:
+    """Turn an error that hides a signal to stop into that stop.
+
+    HDF5 and other libraries in C call functions of Python. A stop in one of these ends as an error of the library.
+    """
+    try:
+        yield
+    except Exception as error:
+        if _stopped is None:
+            raise
+        raise _exit_after(_stopped) from error
 
 
 def _what_is_left(out: Path | None, makes_out: bool) -> str:
@@ -187,11 +215,10 @@ def help_below(examples: Sequence[str], mode: str | None = HELP_MODE) -> str:
 def launch(app: typer.Typer, arguments: list[str], name: str | None = None) -> None:
     """Run an application: one line for every error, and no program left running after a signal to stop."""
     signal.signal(signal.SIGTERM, _stop)
-    if sys.stdout is None:
-        sys.exit(BAD_INPUT)
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors=CHARSET_ERRORS)
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # nohup and batch jobs may ignore it
+        signal.signal(signal.SIGINT, _stop)
+    prepare_streams()
+    _print_logged()
     if _width(sys.stdout) is not None:
         os.environ.setdefault("TERMINAL_WIDTH", str(FILE_WIDTH))  # of the help, which typer prints
     try:
@@ -200,8 +227,27 @@ def launch(app: typer.Typer, arguments: list[str], name: str | None = None) -> N
     except TyperException as error:
         message = error.format_message() if hasattr(error, "format_message") else str(error)
         sys.exit(fail(InputError(f"{message.rstrip('.')}; see --help"), BAD_INPUT).exit_code)
+    except InputError as error:
+        sys.exit(fail(error, BAD_INPUT).exit_code)
+    except OSError as error:
+        sys.exit(fail(_unusable(error), BAD_INPUT).exit_code)
     except typer.Abort:
         sys.exit(128 + signal.SIGINT)
+
+
+class _Logged(logging.Handler):
+    """Prints what the packages log, such as that a cache cannot be written, on standard error."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print one record in one line."""
+        messages.print(short_message(record.getMessage()), soft_wrap=True, markup=False)
+
+
+def _print_logged() -> None:
+    """Print what the packages log with the messages of the command."""
+    logger = logging.getLogger("roughfilm")
+    if not logger.handlers:
+        logger.addHandler(_Logged(logging.WARNING))
 
 
 def run_alone(command: Callable[..., None]) -> None:
@@ -215,8 +261,19 @@ def _app(command: Callable[..., None]) -> typer.Typer:
     return app
 
 
+_stopped: int | None = None
+"""Number of the signal to stop that came; None before."""
+
+
 def _stop(number: int, _frame: FrameType | None) -> None:
-    sys.exit(128 + number)
+    global _stopped
+    _stopped = number
+    raise _exit_after(number)
+
+
+def _exit_after(number: int) -> BaseException:
+    """The exception that a signal to stop raises."""
+    return KeyboardInterrupt() if number == signal.SIGINT else SystemExit(128 + number)
 
 
 def print_json(entries: dict[str, Any]) -> None:
@@ -340,7 +397,7 @@ def make_directory(path: Path) -> None:
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InputError(f"--out {path}: cannot be made ({error.strerror}); choose another place") from error
+        raise unwritable(f"--out {path}", error, done="made") from error
 
 
 def process_count(jobs: int | None) -> int:

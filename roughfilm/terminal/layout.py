@@ -67,6 +67,26 @@ PLAIN = str.maketrans(
 """Characters that a terminal may lack, in ASCII."""
 
 
+BIDI_CONTROLS = (0x061C, 0x200E, 0x200F, *range(0x2028, 0x202F), *range(0x2066, 0x206A))
+"""Characters that change the direction of the text around them, and two that break lines."""
+
+VISIBLE = {
+    code: f"\\x{code:02x}" if code < 0x100 else f"\\u{code:04x}"
+    for code in (*range(0x20), *range(0x7F, 0xA0), *BIDI_CONTROLS)
+    if chr(code) not in "\t\n"
+}
+"""Control characters, and what is shown in their place."""
+
+
+def visible(text: str) -> str:
+    r"""The text with each control character as its code, so that it cannot act on a terminal or reorder a page.
+
+    >>> visible("a\x1b[31m name\u202e")
+    'a\\x1b[31m name\\u202e'
+    """
+    return text.translate(VISIBLE)
+
+
 def in_charset(text: str, encoding: str) -> str:
     """The text, with ASCII in place of the characters that the encoding lacks.
 

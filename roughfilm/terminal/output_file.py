@@ -3,22 +3,24 @@
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from glob import escape
 from pathlib import Path
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import locked, replacing
+from roughfilm.contact.foundation.writing.kinds import Kind
+from roughfilm.contact.foundation.writing.scratch import sweep
 
 
 class _OnlyTriedError(Exception):
     """Leaves a file unwritten."""
 
 
-def refuse_unwritable(*paths: Path | None) -> None:
-    """Raise InputError if one of the files cannot be written; nothing is written."""
-    for path in filter(None, paths):
-        with suppress(_OnlyTriedError), replacing(path):
-            raise _OnlyTriedError
+def refuse_unwritable(*targets: tuple[Path | None, Kind], overwrite: bool = False) -> None:
+    """Raise InputError if one of the files cannot be written, or is of another kind; nothing is written."""
+    for path, kind in targets:
+        if path is not None:
+            with suppress(_OnlyTriedError), replacing(path, kind, overwrite=overwrite):
+                raise _OnlyTriedError
 
 
 def refuse_same(named: Mapping[str, Path | None]) -> None:
@@ -35,12 +37,11 @@ def refuse_same(named: Mapping[str, Path | None]) -> None:
 
 @contextmanager
 def alone(out: Path | None, what: str) -> Iterator[None]:
-    """Lock a file into which ``what`` is written against other processes, and remove what a killed one left."""
+    """Lock a file into which ``what`` is written against other processes."""
     if out is None:
         yield
         return
     message = f"--out {out}: another {what} goes into it (process {{process}}); wait for it or choose another place"
     with locked(out.with_name(f".{out.name}.lock"), message):
-        for left in out.parent.glob(f".{escape(out.stem)}-????????{escape(out.suffix)}"):
-            left.unlink(missing_ok=True)
+        sweep(out.parent)
         yield

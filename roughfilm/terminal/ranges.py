@@ -7,16 +7,11 @@ from functools import partial
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.ranges import RANGES
 from roughfilm.contact.foundation.units import rotational_speed, to_si
 
 MAX_COUNT = 1000
 """The longest series of numbers."""
-
-MIN_LOAD, MAX_LOAD = 1e-30, 1e30
-"""Pa."""
-
-MAX_SPEED = 1e5
-"""m/s."""
 
 _BEFORE_UNIT = re.compile(r"^\s*[-+.\d]*([eE][-+]?\d+)?\s*")
 
@@ -59,8 +54,8 @@ def _pressure(text: str, area: float | None) -> float:
     pressure = to_si(text, "Pa") if force is None or area is None else force / area
     if not pressure > 0:
         raise InputError(f"got {text}; a load must be above 0")
-    if not MIN_LOAD <= pressure <= MAX_LOAD:
-        raise InputError(f"got {text}; check the unit")
+    if pressure not in RANGES["Pa"]:
+        raise InputError(f"got {text}, {pressure:.3g} Pa; a load must be {RANGES['Pa']} Pa, check the unit")
     return pressure
 
 
@@ -102,8 +97,8 @@ def speeds_of(text: str, radius: float | None) -> tuple[float, ...]:
         if turning is not None and radius is None:
             raise InputError(f"got {text!r}, but nothing turns here; write a speed, for example '1 m/s'")
         sliding = to_si(text, "m/s") if turning is None or radius is None else turning * radius
-        if not 0 <= sliding <= MAX_SPEED:
-            raise InputError(f"got {text}; a speed must be 0 or more, and {MAX_SPEED:g} m/s at most")
+        if not sliding >= 0 or sliding not in RANGES["m/s"]:
+            raise InputError(f"got {text}; a speed must be 0 or {RANGES['m/s']} m/s, check the unit")
         return sliding
 
     return _numbers_of(text, speed, option="--speeds", what="speed", example="1rpm..600rpm:60 or 0,30rpm")

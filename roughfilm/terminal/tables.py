@@ -8,7 +8,7 @@ from rich.console import Console, ConsoleOptions, RenderResult
 from rich.table import Column, Table
 from rich.text import Text
 
-from roughfilm.terminal.layout import in_charset, wrapped
+from roughfilm.terminal.layout import in_charset, visible, wrapped
 
 GAP = 2
 """Spaces between two columns."""
@@ -82,7 +82,8 @@ class FittedTable(Table):
 
 
 def _plain(console: Console, cell: object) -> str:
-    return cell.plain if isinstance(cell, Text) else console.render_str(str(cell), highlight=False).plain
+    text = cell if isinstance(cell, Text) else console.render_str(str(cell), highlight=False)
+    return visible(text.plain)
 
 
 def _longest_word(text: str) -> int:

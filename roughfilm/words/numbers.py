@@ -1,6 +1,8 @@
 """Numbers as text: with an uncertainty, such as 98 ± 13 and 0.0214 ± 0.0003, in per cent, or in a unit."""
 
 import math
+from collections.abc import Mapping
+from typing import Any
 
 from roughfilm.contact.foundation.rounding import MIN_UNCERTAINTY as MIN_UNCERTAINTY
 from roughfilm.contact.foundation.rounding import share as share
@@ -16,6 +18,15 @@ def digits(value: float) -> str:
 def finite(value: float) -> float | None:
     """The number as JSON can hold it: None where it is infinite or NaN."""
     return float(value) if math.isfinite(value) else None
+
+
+def finite_entries(entry: Any) -> Any:
+    """The entries as JSON can hold them: None in place of each number that is infinite or NaN, at any depth."""
+    if isinstance(entry, Mapping):
+        return {name: finite_entries(one) for name, one in entry.items()}
+    if isinstance(entry, list | tuple):
+        return [finite_entries(one) for one in entry]
+    return finite(entry) if isinstance(entry, float) else entry
 
 
 def percent(fraction: float) -> str:

@@ -68,7 +68,7 @@ def best_sentence(answer: Answer, title: str, scale: Scale, parameters: Sequence
         return f"{number}{unknown}{f' at {where}' if where else ''} (case {case + 1} of {total})"
 
     if len(answer.order) == 1:
-        ranked = "that is ranked, " if answer.unranked else ""
+        ranked = "that is ranked, " if np.isfinite(answer.values).sum() > 1 else ""
         return f"{_upper(title)}: {at(answer.best)}, the only case {ranked}by {answer.setting}"
     if answer.sense is Sense.UNCLEAR:
         return f"{_upper(title)}: largest {at(answer.best)}, smallest {at(answer.worst)}, by {answer.setting}"
@@ -114,6 +114,20 @@ def unranked_sentence(answer: Answer, reason: str) -> str:
     which = f" ({numbers}{', ...' if count > CASES_NAMED else ''})"
     why = f": {reason.rstrip('.')}" if reason else ""
     return f"Not ranked, as their error is above 100 %: {_cases(count)}{which}{why}."
+
+
+def edited_sentences(edited: Mapping[str, Mapping[int, str]]) -> list[str]:
+    """A sentence for each case that was edited since it was generated.
+
+    Parameters
+    ----------
+    edited : the warnings of the edited cases by their number, by setting.
+    """
+    return [
+        f"Case {case + 1} by {setting}: {words.rstrip('.')}"
+        for setting, cases in edited.items()
+        for case, words in cases.items()
+    ]
 
 
 def uncertainty_sentence(answer: Answer) -> str:

@@ -518,11 +518,14 @@ def program(name: str, *arguments: str | Path, cwd: Path) -> str:
 
 
 def test_the_cases_of_a_study_are_written_each_into_its_directory(tmp_path):
-    options = ("--out", tmp_path / "cases", "--resolution", "12")
-    told = program("generate_cases.py", STUDIES / "pocket.toml", *options, cwd=tmp_path)
-    places = [Path(line) for line in told.splitlines()]
+    text = (STUDIES / "pocket.toml").read_text(encoding="utf-8").partition("[study]")[0]
+    (tmp_path / "study.toml").write_text(
+        f'{text}[study]\nmodels = ["navier_stokes"]\nresolution = {{ navier_stokes = 12 }}\n', encoding="utf-8"
+    )
+    printed = program("generate_cases.py", "study.toml", "--out", "cases", cwd=tmp_path)
+    places = [tmp_path / line for line in printed.splitlines()]
     assert len(places) == 12
-    assert all((place / "Allrun").is_file() and place.name == "navier_stokes" for place in places)
+    assert all((place / "Allrun").is_file() and place.name == "navier_stokes-12" for place in places)
 
 
 def test_a_study_is_solved_once_and_its_inertia_reported(tmp_path):

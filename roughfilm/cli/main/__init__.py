@@ -7,7 +7,9 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
+from roughfilm.contact.foundation.writing.scratch import sweep_machine
 from roughfilm.terminal.console import HELP_MODE, help_below, in_one_line, launch
+from roughfilm.terminal.openfoam import naming_openfoam
 
 GROUPS = {
     "First steps": {
@@ -32,10 +34,12 @@ GROUPS = {
     },
     "Many cases": {
         "batch": "Solve every case of a study by every model and write table.csv and table.h5.",
+        "cluster": "Write keys that close a dask cluster to others, and show the commands that use them.",
         "report": "Write the page of a study: the best case and curves, the models that would have done, and cost.",
     },
     "OpenFOAM and other tools": {
-        "generate": "Write the OpenFOAM cases alone; run each with its ./Allrun.",
+        "generate": "Write the OpenFOAM cases of a scene or a study, with scripts that run them by hand or in Slurm.",
+        "collect": "Read the generated OpenFOAM cases that have finished, and write the results and tables of 'batch'.",
         "export": "Write a gap, a surface or a result as a mesh for other tools: lengths in metres, data named with "
         "their units.",
     },
@@ -50,6 +54,11 @@ GROUPS = {
 }
 """The commands by their use, each with its help in one line; ``roughfilm/cli/<command>.py`` has the command."""
 
+WITH_OPENFOAM = frozenset(
+    {"models", "advise", "solve", "compare", "batch", "generate", "doctor", "charts", "stability"}
+)
+"""The commands that take the option ``--openfoam``."""
+
 COMMANDS = {name: line for group in GROUPS.values() for name, line in group.items()}
 
 
@@ -58,9 +67,11 @@ class _Commands(TyperGroup):
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
         name, _, rest = super().resolve_command(ctx, args)
+        sweep_machine()
         module = importlib.import_module(f"roughfilm.cli.{name}")
         alone = typer.Typer(add_completion=False, rich_markup_mode=HELP_MODE)
-        alone.command(name, epilog=help_below(getattr(module, "EXAMPLES", ())))(in_one_line(module.command))
+        function = naming_openfoam(module.command) if name in WITH_OPENFOAM else module.command
+        alone.command(name, epilog=help_below(getattr(module, "EXAMPLES", ())))(in_one_line(function))
         return name, typer.main.get_command(alone), rest
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import h5py
 import pytest
+from places import SCENES
 from typer.testing import CliRunner
 
 from roughfilm.cli import compare
@@ -83,7 +84,7 @@ def test_solve_does_not_write_over_its_scene(pocket_file):
     before = pocket_file.read_bytes()
     refused = run("solve", pocket_file, "--model", "reynolds", "--out", pocket_file)
     assert refused.exit_code == 2
-    assert "choose another name" in refused.stderr
+    assert "is an input" in refused.stderr
     assert pocket_file.read_bytes() == before
 
 
@@ -182,10 +183,11 @@ def test_usage_errors_are_one_line_and_code_2(arguments, monkeypatch, capsys):
     assert "see --help" in one_line(capsys.readouterr().err)
 
 
-def test_a_full_device_is_one_line(pocket_file):
+@pytest.mark.parametrize("arguments", [("solve", SCENES / "pocket.toml", "--model", "reynolds", "--json"), ("--help",)])
+def test_a_full_device_is_one_line(arguments):
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            [sys.executable, "-m", "roughfilm.cli.main", "solve", pocket_file, "--model", "reynolds", "--json"],
+            [sys.executable, "-m", "roughfilm.cli.main", *arguments],
             stdout=full,
             stderr=subprocess.PIPE,
             text=True,
@@ -195,13 +197,25 @@ def test_a_full_device_is_one_line(pocket_file):
     assert "standard output: cannot be written" in one_line(done.stderr)
 
 
-def test_a_reader_that_ends_early_gets_no_message():
+@pytest.mark.parametrize(("closed", "code"), [("<&-", 0), ("2>&-", 0), (">&-", 2), ("<&- >&- 2>&-", 2)])
+def test_closed_streams_give_no_traceback(closed, code, tmp_path):
+    said = tmp_path / "said"
+    order = f'exec 2>"$1"; "$0" -m roughfilm.cli.main new pocket {closed}'
+    done = subprocess.run(["sh", "-c", order, sys.executable, said], stdout=subprocess.DEVNULL, timeout=120)
+    assert done.returncode == code
+    lines = said.read_text().splitlines()
+    assert lines == (
+        ["error: standard output: cannot be written (Bad file descriptor); send it elsewhere"] * (closed == ">&-")
+    )
+
+
+def test_a_reader_that_ends_early_is_no_failure():
     reader, writer = os.pipe()
     os.close(reader)
     command = [sys.executable, "-m", "roughfilm.cli.main", "models"]
     done = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True, timeout=120)
     os.close(writer)
-    assert (done.returncode, done.stderr) == (1, "")
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 @pytest.mark.openfoam
@@ -290,3 +304,12 @@ def test_the_command_is_installed():
     assert done.returncode == 0
     assert all(name in done.stdout for name in ("models", "solve", "compare", "generate", "doctor"))
     assert cli.main
+
+
+def test_completion_that_cannot_be_installed_is_one_line(monkeypatch, capsys):
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    monkeypatch.setenv("HOME", "/proc/none")
+    with pytest.raises(SystemExit) as ended:
+        launch(app, ["--install-completion", "bash"])
+    assert ended.value.code == 2
+    assert "/proc/none: cannot be read or written" in one_line(capsys.readouterr().err)

@@ -237,7 +237,6 @@ def test_killed_at_any_moment_it_goes_on(tmp_path):
     with h5py.File(out) as file:
         assert file["series/load"][()].tolist() == list(kept)
     assert 1 <= len(kept) < 400
-    (tmp_path / ".c-abcd1234.h5").write_text("what a writer that was killed left")
     answer = told(tmp_path / "s.npy", "--spacing", "1um", *PLASTIC, "--loads", f"{kept[-1]!r}Pa", "--out", out)
     assert answer["numerics"]["loads_found"] == 1
     assert sorted(os.listdir(tmp_path)) == ["c.h5", "s.npy"]

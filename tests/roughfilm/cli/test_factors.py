@@ -170,11 +170,11 @@ def test_the_page_of_one_gap(surface, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["none.h5", "--gap", "1um"], "there is no such file"),
+        (["none.h5", "--gap", "1um"], "no such file"),
         (["SURFACE", "--gap", "1 s"], "--gap 1 s"),
-        (["SURFACE", "--gap", "-1um"], "above 0"),
-        (["SURFACE", "--gap", "0um"], "above 0"),
-        (["SURFACE", "--gap", "1e200m"], "at most"),
+        (["SURFACE", "--gap", "-1um"], "give a length of 1e-15 to 1e+06 m"),
+        (["SURFACE", "--gap", "0um"], "give a length of 1e-15 to 1e+06 m"),
+        (["SURFACE", "--gap", "1e200m"], "a length must be"),
         (["SURFACE", "--gap", "1um", "--tolerance", "0.1"], "--tolerance"),
         (["SURFACE", "--gap", "1um", "--out", "F.h5"], "leave it or --gap out"),
         (["SURFACE", "--offset", "10nm"], "give --gap"),

@@ -2,12 +2,14 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from roughfilm.cli.main import app
+from roughfilm.rom.ladder.store import load, save
 from roughfilm.rom.studies.sweep import loaded, read_sweep, relative_error
 from roughfilm.rom.studies.table import read_table
 
@@ -91,5 +93,30 @@ def test_a_reference_that_leaves_effects_out_ranks_only_what_it_can_tell_apart(f
 def test_a_directory_without_a_table_is_one_line(tmp_path):
     run = CliRunner().invoke(app, ["report", str(tmp_path)])
     assert run.exit_code == 2
-    assert "table.h5: no such file" in run.stderr
+    assert "holds no batch; name the directory of a batch" in " ".join(run.stderr.split())
     assert len(run.stderr.strip().splitlines()) == 1
+
+
+def test_an_edited_case_is_not_the_best_one_and_is_named(tmp_path):
+    text = STUDY.replace('["0.2 length", "0.3 length", "0.5 length"]', '"0.3 length"').replace(
+        "[20, 60, 160]", "[20, 60]"
+    )
+    (tmp_path / "study.toml").write_text(text.partition("[study]")[0] + '[study]\nmodels = ["reynolds"]\n')
+    out = tmp_path / "done"
+    run = CliRunner().invoke(app, ["batch", str(tmp_path / "study.toml"), "--out", str(out)])
+    assert run.exit_code == 0, run.output
+    before = json.loads(CliRunner().invoke(app, ["report", str(out), "--json"]).stdout)
+    assert before["edited"] == []
+    best = before["answers"][0]["best"]
+    path = next(one for one in out.rglob("*.h5") if one.parent.name == best["case"])
+    words = "the case was edited: constant/transportProperties: nu 1 → 1234"
+    save(replace(load(path), warnings=(words,)), path, overwrite=True)
+    (out / "table.h5").unlink()
+    run = CliRunner().invoke(app, ["report", str(out), "--overwrite"])
+    assert run.exit_code == 0, run.output
+    assert f"Case {best['number']} by reynolds: the case was edited" in " ".join(run.output.split())
+    after = json.loads((out / "report.json").read_text())
+    (line,) = after["edited"]
+    assert line.startswith(f"Case {best['number']} by reynolds: {words}")
+    assert after["answers"][0]["best"]["case"] != best["case"]
+    assert words in (out / "report.html").read_text()

@@ -177,7 +177,8 @@ def test_a_failed_case_is_listed_with_its_message(pockets, tmp_path):
     place = sorted((done / "cases").iterdir())[1]
     (place / "inertial_reynolds.h5").unlink()
     failure = Failure(kind="ConvergenceError", message="stalls at a residual of 0.1")
-    identity = {"scene": scene_entries(load_scene(place / "scene.toml"))}
+    scene = scene_entries(load_scene(place / "scene.toml"))
+    identity = {"setting": "inertial_reynolds", "scene": scene, "code": "", "versions": {}, "needs": ""}
     record = {"failure": asdict(failure), "identity": identity}
     (place / "inertial_reynolds.failed.json").write_text(json.dumps(record))
     _, page, entries = report(done)

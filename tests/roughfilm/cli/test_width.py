@@ -40,12 +40,14 @@ RUNS = {
     "factors": ["factors rough.toml --gap 0.5um"],
     "batch": ["batch study.toml --out sweep --jobs 1", "batch study.toml --out sweep --jobs 1 --dry-run"],
     "report": ["report sweep"],
+    "cluster": ["cluster keys keys{width}"],
     "generate": ["generate pocket.toml --resolution 24 --out cases{width}"],
+    "collect": ["collect cases{width} --jobs 1"],
     "export": ["export rough.toml --out rough.vtu"],
     "doctor": ["doctor"],
     "cache": ["cache"],
 }
-"""Small examples of the commands; report needs the sweep of batch before it."""
+"""Small examples of the commands; report needs the sweep of batch before it, collect the cases of generate."""
 
 ONE_WIDTH = {"compare", "leakage", "report", "stribeck"}
 """Commands that take seconds, which are run in the narrower terminal alone."""

@@ -2,11 +2,11 @@
 
 import csv
 import json
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from batches import Threads
 from typer.testing import CliRunner
 
 from roughfilm.batch import answers as stability_runs
@@ -189,7 +189,7 @@ def test_two_meshes_judge_inertia_and_the_smallest_cut_the_pressed(every, asked)
     some = [one for one in every if one.group.startswith(INERTIA) and one.column == "Re = 1"]
     some += [one for one in every if one.group.startswith(f"{CUT}:") and one.row == "homogenized"]
     found = [(one, other(result, part=1.1 if one.column == f"{CUTS[0]:g}" else 1.0)) for one in some]
-    with ThreadPoolExecutor(1) as executor:
+    with Threads(1) as executor:
         spots = judged(found, executor)
     assert {spot.message.split(" (")[0].split()[-1] for spot in spots} == {"meshes", f"{CUTS[-1]:g}"}
     pressed = [spot for spot in spots if spot.group.startswith(CUT)]
@@ -204,7 +204,7 @@ def test_the_map_is_a_page_a_table_and_json_and_is_used_again(tmp_path, monkeypa
         return (one for one in ridges if one.column in ("0.5", f"{CUTS[-1]:g}"))
 
     for module in (stability_gap, stability_runs):
-        monkeypatch.setattr(module, "local", lambda *_: ThreadPoolExecutor(1))
+        monkeypatch.setattr(module, "local", lambda *_: Threads(1))
     monkeypatch.setattr(stability_gap, "gap_runs", few)
     result = CliRunner().invoke(app, ["stability", "rough_gap", "--out", str(tmp_path), "--jobs", "1", "--json"])
     assert result.exit_code == 0, result.stderr

@@ -1,6 +1,9 @@
 """What the terminal makes of exceptions that end a command."""
 
+import signal
 import threading
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -8,10 +11,11 @@ import pytest
 import typer
 
 from roughfilm.cli.advise import Want
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.timing import one_time
 from roughfilm.terminal import console
 from roughfilm.terminal.console import Overrides, Tolerance, in_one_line
+from roughfilm.terminal.results import print_all, table_of
 
 
 @pytest.mark.parametrize("kind", [KeyboardInterrupt, SystemExit])
@@ -131,3 +135,60 @@ def test_every_fault_of_an_input_is_a_line_of_its_own(capsys):
         "error: pocket.toml:6: geometry.film: got 1",
         "error: pocket.toml:9: geometry.depth: got 2",
     ]
+
+
+@pytest.mark.parametrize("name", ["\x1b[31mred", "\x1b]0;title\x07", "a\x9b2J", "a\u202etxt.exe", "bell\x07", "a\rb"])
+def test_control_characters_are_shown_and_do_not_act(name, capsys):
+    def command() -> None:
+        console.print_message("warning", f"{name} is coarse")
+        raise ConvergenceError(f"{name}: stopped")
+
+    with pytest.raises(typer.Exit):
+        in_one_line(command)()
+    print_all(
+        [f"{name} of a line", table_of([f"{name} of a head"], [[f"{name} of a cell"]], title=f"{name} of a title")]
+    )
+    shown = capsys.readouterr()
+    for text in (shown.out, shown.err):
+        assert all(character == "\n" or character.isprintable() for character in text)
+    assert "red" not in name or r"\x1b[31mred of a cell" in shown.out
+
+
+@pytest.mark.parametrize("value", ["x" * 100_000, "many words " * 10_000, "/folder" * 20_000])
+def test_a_line_about_a_very_long_value_is_short(value, capsys):
+    for message in (f"scene.kind: got {value!r}; it must be a kind", f"{value}: no such file; name a TOML file"):
+        with pytest.raises(typer.Exit):
+            in_one_line(_raiser(InputError(message)))()
+        shown = capsys.readouterr().err
+        assert len(shown) < 2100
+        assert shown.endswith(message[-15:] + "\n")
+
+
+def test_an_error_of_the_system_names_its_file(capsys):
+    with pytest.raises(typer.Exit) as stop:
+        in_one_line(_raiser(OSError(28, "No space left on device", "/disk/case/log")))()
+    assert stop.value.exit_code == 2
+    assert capsys.readouterr().err == (
+        "error: /disk/case/log: cannot be read or written (No space left on device); "
+        "free some space there or choose another place\n"
+    )
+
+
+def _raiser(error: Exception) -> Callable[[], None]:
+    def command() -> None:
+        raise error
+
+    return command
+
+
+@pytest.mark.parametrize(("number", "stop"), [(signal.SIGTERM, SystemExit), (signal.SIGINT, KeyboardInterrupt)])
+def test_an_error_that_hides_a_signal_to_stop_is_the_stop(number, stop, monkeypatch):
+    monkeypatch.setattr(console, "_stopped", None)
+
+    def command() -> None:
+        with suppress(BaseException):
+            console._stop(number, None)
+        raise TypeError("an error of a library in C")
+
+    with pytest.raises(stop):
+        in_one_line(command)()

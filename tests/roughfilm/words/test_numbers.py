@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from roughfilm.words.numbers import with_error
+from roughfilm.words.numbers import finite_entries, with_error
 
 
 @pytest.mark.parametrize(
@@ -28,3 +28,16 @@ from roughfilm.words.numbers import with_error
 )
 def test_no_digits_that_the_error_does_not_leave(value, error, text):
     assert with_error(value, error) == text
+
+
+def test_json_has_no_number_that_is_not_finite():
+    unknown = {"value": 1.5, "uncertainty": math.inf}
+    entries = {"load": unknown, "of two": [(unknown, math.nan)], "cells": 16, "unit": "Pa", "left out": None}
+    known = {"value": 1.5, "uncertainty": None}
+    assert finite_entries(entries) == {
+        "load": known,
+        "of two": [[known, None]],
+        "cells": 16,
+        "unit": "Pa",
+        "left out": None,
+    }
