@@ -16,6 +16,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.figures import base
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import code, versions
@@ -114,7 +115,7 @@ def kept(path: Path | None, inputs: Mapping[str, Any], make: Callable[[], Any]) 
         pass  # is made again and replaced
     made = plain(make())
     make_directory(path.parent)
-    with replacing(path) as scratch:
+    with replacing(path, JSON) as scratch:
         scratch.write_text(json.dumps({"identity": identity, "found": made}) + "\n", encoding="utf-8")
     return made
 
@@ -142,7 +143,7 @@ def write(
     plots = {name: base.svg(figure) for name, figure in figures.items()}
     write_figures({name.replace(" ", "_"): text for name, text in plots.items()}, out)
     written: dict[str, Any] = plain(numbers)
-    with replacing(out / f"{folder.name}.json") as scratch:
+    with replacing(out / f"{folder.name}.json", JSON) as scratch:
         scratch.write_text(json.dumps(written, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     page = out / f"{folder.name}.html"
     render(folder / "page.html.j2", page, **{**texts(folder), "study": folder.name, "plots": plots, **entries})

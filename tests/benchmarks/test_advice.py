@@ -7,6 +7,7 @@ import pytest
 from places import BENCHMARKS, SCENES
 
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.ladder import models
 from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.ladder.kind import kind_of_name
@@ -47,6 +48,6 @@ def costs(path):
 def test_cost_of_advice():
     paths = [path for path in sorted(SCENES.glob("*.toml")) if kind_named(load_entries(path))]
     entries = [costs(path) for path in paths]
-    with replacing(RESULTS) as scratch:
+    with replacing(RESULTS, JSON) as scratch:
         scratch.write_text(json.dumps({**circumstances(), "scenes": entries}, indent=1))
     assert entries

@@ -13,6 +13,7 @@ import pytest
 from places import BENCHMARKS, ROOT
 
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.rom.ladder.provenance import circumstances
 
 RESULTS = BENCHMARKS / "batch.json"
@@ -63,7 +64,7 @@ def test_wall_time_of_a_study(tmp_path, cases):
         "wall_s": time.perf_counter() - started,
         "load_average": os.getloadavg()[0],
     }
-    with replacing(RESULTS) as scratch:
+    with replacing(RESULTS, JSON) as scratch:
         scratch.write_text(json.dumps({**circumstances(), "studies": list(KEPT.values())}, indent=1))
     rows = (tmp_path / "out" / "table.csv").read_text().splitlines()
     assert len(rows) == cases + 1, printed

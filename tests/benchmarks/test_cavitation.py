@@ -30,6 +30,7 @@ from scipy.optimize import brentq
 
 from roughfilm.charts.peer_runs import PROGRAMS, one_thread
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
@@ -213,7 +214,7 @@ def write(rows):
         {**asdict(case), "exact": exact(case), "gapflow": [row for (name, _), row in rows.items() if name == case.name]}
         for case in CASES
     ]
-    with replacing(RESULTS) as scratch:
+    with replacing(RESULTS, JSON) as scratch:
         scratch.write_text(json.dumps({**circumstances(), "cases": tables}, indent=1))
 
 

@@ -20,6 +20,7 @@ from places import BENCHMARKS, ROOT
 from roughfilm.charts.peer_runs import PROGRAMS, TOLERANCES, VIOLATION
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import add, finished, row_of
 from roughfilm.contact.synthetic.self_affine import self_affine
@@ -139,7 +140,7 @@ def solved(tmp_path_factory):
                 check=True,
             )
             rows[key] = {"load_average": os.getloadavg()[0], **json.loads(result.read_text())}
-            with replacing(RESULTS) as scratch:
+            with replacing(RESULTS, JSON) as scratch:
                 tables = [table(case, rows) for case in CASES]
                 scratch.write_text(json.dumps({**circumstances(), "cases": tables}, indent=1))
         return rows[key]
@@ -232,6 +233,6 @@ def test_the_time_of_writing_a_series_beside_that_of_its_contacts(tmp_path):
         spent["contact"] += solved - begun
         spent["writing"] += time.process_time() - solved
     assert sorted(finished(tmp_path / "series.h5", inputs)) == loads
-    with replacing(RESULTS.with_name("contact_series.json")) as scratch:
+    with replacing(RESULTS.with_name("contact_series.json"), JSON) as scratch:
         fraction = spent["writing"] / sum(spent.values())
         scratch.write_text(json.dumps({**circumstances(), "cpu_s": spent, "writing_fraction": fraction}, indent=1))

@@ -8,6 +8,7 @@ import pytest
 from places import BENCHMARKS, SCENES
 
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.rom.ladder.scene import load_scene, read_scene
@@ -79,7 +80,7 @@ def test_cost_of_films():
     lines = [timed(*one, plane=False) for one in LINES]
     planes = [timed(*one, plane=True) for one in PLANES]
     pockets = [pocketed(cells) for cells in POCKETS]
-    with replacing(RESULTS) as scratch:
+    with replacing(RESULTS, JSON) as scratch:
         rows = {"lines": lines, "planes": planes, "pockets": pockets}
         scratch.write_text(json.dumps({**circumstances(), **rows}, indent=1))
     assert max(row["cpu_s"][0] for row in lines) < 0.1

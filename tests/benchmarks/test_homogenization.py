@@ -23,6 +23,7 @@ from places import BENCHMARKS, ROOT
 
 from roughfilm.charts.peer_runs import PROGRAMS, one_thread
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.files import read_surface
@@ -145,7 +146,7 @@ def told(rows, points, cut_off, solver, error):
 def note(entries):
     """Write some entries of the results, and keep the others of this run."""
     KEPT.update(entries)
-    with replacing(RESULTS) as scratch:
+    with replacing(RESULTS, JSON) as scratch:
         scratch.write_text(json.dumps({**circumstances(), **KEPT}, indent=1))
 
 

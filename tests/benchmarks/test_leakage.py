@@ -14,6 +14,7 @@ from places import BENCHMARKS
 
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.contact.synthetic.self_affine import self_affine
@@ -77,7 +78,7 @@ def found(tmp_path_factory):
 def keep(name, entries):
     """Add to the file of results."""
     there = json.loads(RESULTS.read_text(encoding="utf-8")) if RESULTS.is_file() else {}
-    with replacing(RESULTS) as scratch:
+    with replacing(RESULTS, JSON) as scratch:
         scratch.write_text(json.dumps(there | {name: entries | circumstances()}, indent=1), encoding="utf-8")
 
 

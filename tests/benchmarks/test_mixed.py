@@ -14,6 +14,7 @@ import pytest
 from places import BENCHMARKS, ROOT, SCENES
 
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.rom.ladder.provenance import circumstances
 
 RESULTS = BENCHMARKS / "mixed.json"
@@ -42,7 +43,7 @@ KEPT = {}
 def note(entries):
     """Write some entries of the results, and keep the others of this run."""
     KEPT.update(entries)
-    with replacing(RESULTS) as scratch:
+    with replacing(RESULTS, JSON) as scratch:
         told = {**circumstances(), "load_average": os.getloadavg()[0], **KEPT}
         scratch.write_text(json.dumps(told, indent=1))
 

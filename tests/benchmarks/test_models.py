@@ -7,6 +7,7 @@ from places import BENCHMARKS
 
 from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.rom.ladder.model import ladder
 from roughfilm.rom.ladder.provenance import commit, machine, versions
 from roughfilm.rom.ladder.request import Request
@@ -34,7 +35,7 @@ def test_cost_of_every_model_of_a_pocket(make_scene):
                     "load_plus": runs[0].quantities["load_plus"].value,
                 }
             )
-    with replacing(RESULTS) as scratch:
+    with replacing(RESULTS, JSON) as scratch:
         scratch.write_text(
             json.dumps({"machine": machine(), "versions": versions(), "commit": commit(), "rows": rows}, indent=1)
         )

@@ -15,6 +15,7 @@ from places import BENCHMARKS, SCENES
 
 from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.foamcases.rough_gap.dictionaries import DRIVES
 from roughfilm.foamcases.snappy.snapped import run_snapped, write_snapped
 from roughfilm.foamcases.snappy.solid import carved
@@ -65,7 +66,7 @@ def test_cost_of_rough_gaps():
     assert together["A11"] == pytest.approx(alone["A11"], rel=AGREED)
     rows += [alone, together, row("navier_stokes", scene, resolution=64)]
     RESULTS.parent.mkdir(parents=True, exist_ok=True)
-    with replacing(RESULTS) as path:
+    with replacing(RESULTS, JSON) as path:
         path.write_text(json.dumps({**circumstances(), "rows": rows}, indent=1) + "\n", encoding="utf-8")
 
 
@@ -127,7 +128,7 @@ def test_both_meshes_of_one_gap_agree(amplitude, length, smallest_gap, tmp_path)
         told["exact"] = float(ritz_flow(scene.walls(32)).relative.pressure[0, 0])
     path = RESULTS.with_name(f"rough_gap_meshes_{amplitude}.json")
     path.parent.mkdir(parents=True, exist_ok=True)
-    with replacing(path) as scratch:
+    with replacing(path, JSON) as scratch:
         scratch.write_text(json.dumps({**circumstances(), **told}, indent=1) + "\n", encoding="utf-8")
     assert snapped == pytest.approx(columns, rel=ROUTES_AGREE)
     assert columns == pytest.approx(told.get("exact", columns), rel=ROUTES_AGREE)

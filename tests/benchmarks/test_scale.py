@@ -15,6 +15,7 @@ from places import BENCHMARKS, ROOT
 
 from roughfilm.charts.peer_runs import one_thread
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.rom.ladder.provenance import circumstances
 
 RESULTS = BENCHMARKS / "scale.json"
@@ -60,6 +61,6 @@ def test_cost_and_memory_of_a_size(name, size):
     rows = KEPT.setdefault(name, [])
     rows.append(json.loads(printed) | {"load_average": os.getloadavg()[0]})
     growth = {method: exponent(found, "cpu_s") for method, found in KEPT.items() if len(found) > 1}
-    with replacing(RESULTS) as scratch:
+    with replacing(RESULTS, JSON) as scratch:
         scratch.write_text(json.dumps({**circumstances(), "methods": KEPT, "exponents": growth}, indent=1))
     assert rows[-1]["unknowns"] > 0

@@ -9,6 +9,7 @@ import pytest
 from places import BENCHMARKS, ROOT, SCENES
 
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.rom.ladder.provenance import circumstances
 
 COMMAND = ("-c", "from roughfilm.cli.main import main; main()")
@@ -65,6 +66,6 @@ def test_commands_start_in_time(tmp_path):
         cold = cpu_s(*solve, NUMBA_CACHE_DIR=str(tmp_path / kind))
         rows[f"first {kind}"] = (cold - least(*solve), COMPILE_S)
     entries = [{"command": command, "cpu_s": cpu, "target_cpu_s": target} for command, (cpu, target) in rows.items()]
-    with replacing(RESULTS) as scratch:
+    with replacing(RESULTS, JSON) as scratch:
         scratch.write_text(json.dumps({**circumstances(), "rows": entries}, indent=1))
     assert not [entry for entry in entries if entry["cpu_s"] > entry["target_cpu_s"]]

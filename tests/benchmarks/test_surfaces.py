@@ -9,6 +9,7 @@ import pytest
 from places import BENCHMARKS
 
 from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import JSON
 from roughfilm.contact.parameters.roughness_parameters import parameters
 from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import Recipe
@@ -71,7 +72,7 @@ def test_cost_of_surfaces():
                 "Sk_m": [ours["Sk"].value, other["Sk"] * 1e-6],
             }
         )
-    with replacing(RESULTS) as scratch:
+    with replacing(RESULTS, JSON) as scratch:
         scratch.write_text(
             json.dumps({"machine": machine(), "versions": versions(), "commit": commit(), "rows": rows}, indent=1)
         )

@@ -14,6 +14,7 @@ from typing import Any
 from roughfilm.batch.executors import local
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.rom.ladder.provenance import circumstances
+from roughfilm.rom.studies.table import table_beginning
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
 from scripts.studies.rough_gaps import figures, inertia, range_of_validity, surfaces, waves
 from scripts.studies.rough_gaps import map as cheapest
@@ -92,8 +93,9 @@ def write(out: Path, study: RoughGapStudy, *, as_json: bool = False) -> None:
     """Write the page, its figures, and the numbers as JSON and CSV."""
     make_directory(out)
     for name, rows in tables(study).items():
-        with replacing(out / f"{name}.csv") as scratch:
-            scratch.write_text(as_csv(rows), encoding="utf-8")
+        text = as_csv(rows)
+        with replacing(out / f"{name}.csv", table_beginning(text.split(",")[0])) as scratch:
+            scratch.write_text(text, encoding="utf-8")
     findings = words(study)
     publish(
         Path(__file__).parent,

@@ -4,7 +4,6 @@ import hashlib
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +11,7 @@ from pathlib import Path
 from rich.markup import escape
 
 from roughfilm.batch.directory import alone
-from roughfilm.batch.execute import Solved, run
+from roughfilm.batch.execute import Solved, Workers, run
 from roughfilm.batch.executors import local
 from roughfilm.batch.jobs import Failure, Job, store, stored
 from roughfilm.ladder import find
@@ -44,7 +43,7 @@ class ModelRun:
 Answers = Mapping[str, Result]
 """Results without fields by :attr:`ModelRun.key`; failed runs are left out."""
 
-Place = Callable[[int, Path], AbstractContextManager[Executor]]
+Place = Callable[[int, Path], AbstractContextManager[Workers]]
 
 
 def answers(asked: Sequence[ModelRun], folder: Path, place: Place = local) -> tuple[Answers, dict[str, str]]:

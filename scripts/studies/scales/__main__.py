@@ -4,11 +4,11 @@ python -m scripts.studies.scales --out OUT. Measured surfaces with --surfaces DI
 Source: F. Sahlin, Luleå 2008, Paper C.
 """
 
-import tempfile
 from pathlib import Path
 
 from rich.table import Table
 
+from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
 from scripts.studies.scales import figures
@@ -61,13 +61,13 @@ def judge(study: WaveErrors) -> Claim:
 def command(out: Out, surfaces: Surfaces = None, as_json: AsJson = False) -> None:
     """Solve rough films with every wave resolved and with all averaged, for waves of many lengths."""
     make_directory(out)
-    with counted(4) as advance, tempfile.TemporaryDirectory(prefix="roughfilm-scales-") as scratch:
+    with counted(4) as advance, scratch_directory() as scratch:
         advance("ridges across a slider")
         across = pairs(slider, "ridges across, infinitely wide", RATIOS, PHASES)
         advance("slanting ridges on a pad")
         studies = [across, pairs(pad, "ridges at 45° on a square pad", IN_PLANE, PHASES[::2])]
         advance("a measured surface")
-        cell = measured(surfaces, Path(scratch))
+        cell = measured(surfaces, scratch)
         if cell is not None:
             studies.append(
                 pairs(lambda ratio, phase: over(cell, ratio, phase), f"measured: {SURFACE}", OF_SURFACE, (0.0,))

@@ -2,12 +2,12 @@
 
 import csv
 import json
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from batches import Threads
 
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.surfaces.surface import Surface
@@ -52,7 +52,7 @@ SMALL = {
 
 @contextmanager
 def here(_count, _scratch):
-    with ThreadPoolExecutor(1) as executor:
+    with Threads(1) as executor:
         yield executor
 
 

@@ -7,11 +7,14 @@ from typing import Any
 
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.toml import toml_value
+from roughfilm.contact.foundation.writing.kinds import beginning_with
 from roughfilm.rom.advice import laws
 from roughfilm.rom.advice.laws import Law, Table
 
 OWN_FILE = Path(laws.__file__).with_name(laws.TABLE)
 """The file of this project."""
+
+LAWS = beginning_with("a table of laws", b"# Made by programs")
 
 
 def write_table(table: Table, path: Path) -> None:
@@ -21,7 +24,7 @@ def write_table(table: Table, path: Path) -> None:
     for name, entries in (("step", table.steps), ("promise", table.promises), ("grid", table.grids)):
         for entry in entries:
             lines += ["", f"[[{name}]]", *_lines(vars(entry))]
-    with replacing(path) as scratch_file:
+    with replacing(path, LAWS) as scratch_file:
         scratch_file.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
