@@ -14,7 +14,7 @@ from roughfilm.contact.foundation.checked_hdf5 import checked_bytes, has_mark, o
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.reading.hdf5_content import Content, Numbers, Text
-from roughfilm.contact.foundation.writing.kinds import SIGNATURE, Kind, beginning, beginning_with
+from roughfilm.contact.foundation.writing.kinds import Kind, beginning
 
 SCHEMA = 1
 MARK = b"roughfilm columns, HDF5 behind 512 bytes, sha256 "
@@ -24,8 +24,19 @@ REMEDY = "name a table.h5 that 'roughfilm batch' wrote"
 TEXTS, NUMBERS = Text(shape=("rows",)), Numbers(shape=("rows",), missing=True, infinite=True)
 """What a file holds for a column."""
 
-TABLE = beginning_with(KIND, MARK, SIGNATURE)
-"""The kind of HDF5 files of a table; those of older versions have no mark."""
+
+def _holds_table(path: Path) -> bool:
+    """Whether a file is a table, as far as the units of its columns show; those of older versions have no mark."""
+    try:
+        if has_mark(path, MARK):
+            return True
+        with open_plain(path, KIND, REMEDY) as content:
+            return _has_units(content)
+    except InputError:
+        return False
+
+
+TABLE = Kind(KIND, _holds_table)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,9 +127,14 @@ def read_columns(path: Path) -> dict[str, Column]:
         with open_checked(path, MARK, SCHEMA, REMEDY) as content:
             return _columns(content)
     with open_plain(path, KIND, REMEDY) as content:  # of a version that wrote no header
-        if None in content.take({f"{name}@unit": Text(optional=True) for name in content.names("")}).values():
+        if not _has_units(content):
             raise InputError(f"{path}: is not {KIND}; {REMEDY}")
         return _columns(content)
+
+
+def _has_units(content: Content) -> bool:
+    units = content.take({f"{name}@unit": Text(optional=True) for name in content.names("")})
+    return bool(units) and None not in units.values()
 
 
 def _columns(content: Content) -> dict[str, Column]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import locked, replacing
-from roughfilm.contact.foundation.writing.kinds import Kind
+from roughfilm.contact.foundation.writing.kinds import Kind, OtherKindError
 from roughfilm.contact.foundation.writing.scratch import sweep
 
 
@@ -15,12 +15,23 @@ class _OnlyTriedError(Exception):
     """Leaves a file unwritten."""
 
 
-def refuse_unwritable(*targets: tuple[Path | None, Kind], overwrite: bool = False) -> None:
-    """Raise InputError if one of the files cannot be written, or is of another kind; nothing is written."""
+def refuse_unwritable(*targets: tuple[Path | None, Kind], overwrite: bool | None = None) -> None:
+    """Raise InputError if one of the files cannot be written, or is of another kind; nothing is written.
+
+    Parameters
+    ----------
+    targets : files, or None for one that is not wanted, with their kinds.
+    overwrite : whether files of another kind are replaced; None if the command has no such option.
+    """
     for path, kind in targets:
         if path is not None:
-            with suppress(_OnlyTriedError), replacing(path, kind, overwrite=overwrite):
-                raise _OnlyTriedError
+            try:
+                with suppress(_OnlyTriedError), replacing(path, kind, overwrite=bool(overwrite)):
+                    raise _OnlyTriedError
+            except OtherKindError as error:
+                if overwrite is None:
+                    raise
+                raise InputError(f"{error}, or give --overwrite") from error
 
 
 def refuse_same(named: Mapping[str, Path | None]) -> None:

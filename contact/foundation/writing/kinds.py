@@ -16,6 +16,10 @@ _inputs: dict[tuple[int, int], Path] | None = None
 """The files that the command has read as inputs, by device and inode; None outside of a command."""
 
 
+class OtherKindError(InputError):
+    """An output would replace a file of another kind."""
+
+
 @dataclass(frozen=True)
 class Kind:
     """A kind of file that is written: what a file of it is called, with its article, and how one is recognised.
@@ -81,6 +85,8 @@ def as_input(path: Path) -> Path:
 def refuse_to_replace(path: Path, kind: Kind, *, overwrite: bool = False) -> None:
     """Raise InputError if a file may not be replaced by one of a kind; a missing or an empty file may.
 
+    The error is an OtherKindError if ``overwrite`` would allow it.
+
     Parameters
     ----------
     path : the file, which need not exist.
@@ -105,7 +111,7 @@ def refuse_to_replace(path: Path, kind: Kind, *, overwrite: bool = False) -> Non
     except OSError:
         known = False
     if not known:
-        raise InputError(f"{path}: exists and is not {kind.words}; name another place or remove it")
+        raise OtherKindError(f"{path}: exists and is not {kind.words}; name another place or remove it")
 
 
 def resolved(path: Path) -> Path:

@@ -46,3 +46,18 @@ def test_what_is_no_table_is_refused_in_one_line(tmp_path):
             read_table(tmp_path / name)
     with pytest.raises(InputError, match="no such file"):
         read_table(tmp_path / "none")
+
+
+def test_a_table_replaces_a_table_and_no_other_file(tmp_path):
+    path = tmp_path / "t.h5"
+    with h5py.File(path, "w") as file:
+        file["x"] = np.zeros(3)
+    before = path.read_bytes()
+    with pytest.raises(InputError, match="t.h5: exists and is not a table of roughfilm"):
+        write_hdf5(TABLE, path)
+    assert path.read_bytes() == before
+    with h5py.File(path, "w") as file:  # as versions without a header wrote it
+        file["x"] = np.zeros(3)
+        file["x"].attrs["unit"] = "m"
+    write_hdf5(TABLE, path)
+    assert list(read_table(path)) == list(TABLE)

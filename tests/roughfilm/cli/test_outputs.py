@@ -74,6 +74,7 @@ def test_a_file_of_another_kind_is_kept(place, words):
     assert done.exit_code == 2
     assert f"{words[-1]}: exists and is not a" in done.stderr
     assert "name another place or remove it" in done.stderr
+    assert ("or give --overwrite" in done.stderr) == (words[0] in {"solve", "surface", "export"})
     assert (place / words[-1]).read_text() == LETTER
 
 
