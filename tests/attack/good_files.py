@@ -241,6 +241,12 @@ def _read_surface(path: Path) -> Any:
     return surface.heights.tobytes(), surface.spacing, surface.invalid.tobytes(), surface.periodic
 
 
+def _instrument(path: Path) -> None:
+    import surfalize  # slow to import
+
+    surfalize.Surface(1e6 * HEIGHTS, 1.5, 1.5).save(path)
+
+
 def _read_heights(path: Path) -> Any:
     return read_height_map(path, SPACING, periodic=True).heights.tobytes()
 
@@ -376,6 +382,10 @@ KINDS = {
         ),
         _read_surface,
     ),
+    **{
+        f"instrument file {suffix}": GoodFile(_file(f"measured.{suffix}", _instrument), _read_surface)
+        for suffix in ("al3d", "sdf", "x3p")
+    },
     "points in CSV": GoodFile(
         _written("points.csv", "position (um), depth (um)\n0, 0\n10, 5\n20, 0\n"),
         lambda path: _rows(path),
