@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, finite_arithmetic
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.fields import internal_field, last_fields, points
@@ -97,9 +97,10 @@ def read_channel(directory: Path) -> Channel:
     except InputError as error:
         raise ConvergenceError(f"{directory}: holds no finished fields ({error})") from error
     vertices = corners.reshape(*nodes, 3, order="F")[:, :, 0, :2]
-    up, down = vertices[1:, 1:] - vertices[:-1, :-1], vertices[:-1, 1:] - vertices[1:, :-1]
-    if not (up[..., 0] * down[..., 1] - up[..., 1] * down[..., 0] > 0).all():
-        raise InputError(f"{directory}: a cell of the mesh has no area; generate the case again")
+    with finite_arithmetic(str(directory)):
+        up, down = vertices[1:, 1:] - vertices[:-1, :-1], vertices[:-1, 1:] - vertices[1:, :-1]
+        if not (up[..., 0] * down[..., 1] - up[..., 1] * down[..., 0] > 0).all():
+            raise InputError(f"{directory}: a cell of the mesh has no area; generate the case again")
     channel = Channel(vertices=vertices, velocity=velocity, pressure=pressure)
     first, last_column = np.diff(vertices[:, -1, 0])[[0, -1]] / 2
     wall = channel.wall_pressure
