@@ -86,10 +86,9 @@ def _list(path: Path, data: bytes, start: int, asked: int | None, components: in
     if found[2] == b"{" and asked is not None:
         return np.broadcast_to(_parsed(path, data[found.end() :].partition(b"}")[0], components), (count, components))
     if header is None or re.search(rb"\bformat\s+binary\b", header[1]) is None:
-        end = data.find(b"\n)", found.end()) if components > 1 else data.find(b")", found.end())
-        return _parsed(path, data[found.end() : end if end >= 0 else None], count * components).reshape(
-            count, components
-        )
+        ends = (b")",) if components == 1 else (b"\n)", b"))")  # OpenFOAM writes up to ten values in one line
+        end = min((place for place in (data.find(one, found.end()) for one in ends) if place >= 0), default=len(data))
+        return _parsed(path, data[found.end() : end], count * components).reshape(count, components)
     kind = np.dtype("<f4" if b"scalar=32" in header[1] else "<f8")
     length = count * components * kind.itemsize
     if len(data) < found.end() + length + 1 or data[found.end() + length : found.end() + length + 1] != b")":
