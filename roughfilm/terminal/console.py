@@ -49,6 +49,9 @@ PROGRESS_VARIABLE = "ROUGHFILM_PROGRESS"
 FIRST_LINE_S, LINE_INTERVAL_S = 2.0, 10.0
 """Time until the first line about progress, and between lines, s."""
 
+STOP_AGAIN_S = 0.01
+"""Time after which a signal to stop is raised again, s."""
+
 LEAST_DONE = 0.05
 """Done fraction below which the time left is not estimated."""
 
@@ -217,6 +220,7 @@ def launch(app: typer.Typer, arguments: list[str], name: str | None = None) -> N
     signal.signal(signal.SIGTERM, _stop)
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # nohup and batch jobs may ignore it
         signal.signal(signal.SIGINT, _stop)
+    sys.unraisablehook = _stop_later
     prepare_streams()
     _print_logged()
     if _width(sys.stdout) is not None:
@@ -269,6 +273,16 @@ def _stop(number: int, _frame: FrameType | None) -> None:
     global _stopped
     _stopped = number
     raise _exit_after(number)
+
+
+def _stop_later(ignored: "sys.UnraisableHookArgs") -> None:
+    """Stop again where Python ignored the exception of a signal, as in callbacks of weak references."""
+    if _stopped is None or not isinstance(ignored.exc_value, KeyboardInterrupt | SystemExit):
+        sys.__unraisablehook__(ignored)
+        return
+    number = _stopped
+    signal.signal(signal.SIGALRM, lambda _number, frame: _stop(number, frame))
+    signal.setitimer(signal.ITIMER_REAL, STOP_AGAIN_S)
 
 
 def _exit_after(number: int) -> BaseException:

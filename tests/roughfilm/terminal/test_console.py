@@ -1,6 +1,8 @@
 """What the terminal makes of exceptions that end a command."""
 
 import signal
+import subprocess
+import sys
 import threading
 from collections.abc import Callable
 from contextlib import suppress
@@ -192,3 +194,27 @@ def test_an_error_that_hides_a_signal_to_stop_is_the_stop(number, stop, monkeypa
 
     with pytest.raises(stop):
         in_one_line(command)()
+
+
+STOPPED_IN_A_CALLBACK = """
+import signal, time, weakref
+from roughfilm.terminal.console import run_alone
+
+class Kept: pass
+
+def command() -> None:
+    kept = Kept()
+    seen = weakref.ref(kept, lambda _: signal.raise_signal(signal.SIGTERM))
+    del kept
+    time.sleep(60)
+    print("went on")
+
+run_alone(command)
+"""
+
+
+def test_a_signal_to_stop_in_a_callback_whose_exceptions_are_ignored_stops_the_command():
+    done = subprocess.run(
+        [sys.executable, "-c", STOPPED_IN_A_CALLBACK], capture_output=True, text=True, timeout=50, check=False
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (128 + signal.SIGTERM, "", "")
