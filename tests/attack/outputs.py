@@ -29,6 +29,9 @@ COSTS = re.compile(
 AS_BYTES = frozenset({".toml", ".msh", ".stl", ".vtu", ".npy"})
 """Endings of files that are the same, byte for byte, whenever a command writes them."""
 
+TIME = re.compile(r"\d[\d.e+-]* (?:CPU )?(?:ms|s|min|h)\b")
+"""Times in sentences, which differ as the costs do."""
+
 ROUNDING = 1e-9
 """Relative difference of two numbers that is no difference."""
 
@@ -88,6 +91,9 @@ def differences(one: Any, other: Any, place: str = "", *, costs: bool = False) -
     elif isinstance(one, float | int) and isinstance(other, float | int):
         if not (math.isclose(one, other, rel_tol=ROUNDING, abs_tol=1e-300) or (one != one and other != other)):
             yield f"{place}: {one!r}, {other!r}"
+    elif isinstance(one, str) and isinstance(other, str):
+        if one != other and (costs or TIME.sub("", one) != TIME.sub("", other)):
+            yield f"{place}: {one!r:.80}, {other!r:.80}"
     elif one != other:
         yield f"{place}: {one!r:.80}, {other!r:.80}"
 
