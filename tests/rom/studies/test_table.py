@@ -53,7 +53,7 @@ def test_a_table_replaces_a_table_and_no_other_file(tmp_path):
     with h5py.File(path, "w") as file:
         file["x"] = np.zeros(3)
     before = path.read_bytes()
-    with pytest.raises(InputError, match="t.h5: exists and is not a table of roughfilm"):
+    with pytest.raises(InputError, match=r"t\.h5: exists and is not a table of roughfilm"):
         write_hdf5(TABLE, path)
     assert path.read_bytes() == before
     with h5py.File(path, "w") as file:  # as versions without a header wrote it
