@@ -1,7 +1,7 @@
 """Read the fields of a finished pocket case as arrays over columns and layers."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -92,7 +92,7 @@ def read_channel(directory: Path) -> Channel:
     try:
         last, cells = last_fields(directory), card.columns * card.layers
         velocity = internal_field(last / "U", 3, cells).reshape(*shape, 3, order="F")[..., :2]
-        pressure = internal_field(last / "p", 1, cells).reshape(shape, order="F") * card.reynolds_number
+        pressure = internal_field(last / "p", 1, cells).reshape(shape, order="F")
         corners = points(directory / "constant" / "polyMesh" / "points", math.prod(nodes))
     except InputError as error:
         raise ConvergenceError(f"{directory}: holds no finished fields ({error})") from error
@@ -101,8 +101,8 @@ def read_channel(directory: Path) -> Channel:
         up, down = vertices[1:, 1:] - vertices[:-1, :-1], vertices[:-1, 1:] - vertices[1:, :-1]
         if not (up[..., 0] * down[..., 1] - up[..., 1] * down[..., 0] > 0).all():
             raise InputError(f"{directory}: a cell of the mesh has no area; generate the case again")
-    channel = Channel(vertices=vertices, velocity=velocity, pressure=pressure)
-    first, last_column = np.diff(vertices[:, -1, 0])[[0, -1]] / 2
-    wall = channel.wall_pressure
-    boundary = (wall[0] * last_column + wall[-1] * first) / (first + last_column)
-    return Channel(vertices=vertices, velocity=velocity, pressure=pressure - boundary)
+        channel = Channel(vertices=vertices, velocity=velocity, pressure=pressure * card.reynolds_number)
+        first, last_column = np.diff(vertices[:, -1, 0])[[0, -1]] / 2
+        wall = channel.wall_pressure
+        boundary = (wall[0] * last_column + wall[-1] * first) / (first + last_column)
+        return replace(channel, pressure=channel.pressure - boundary)

@@ -114,7 +114,8 @@ def read_batch(directory: Path) -> Batch:
     wanted = {(case, setting) for case in plan.cases for setting in plan.settings}
     if (directory / "table.h5").is_file():
         table = read_columns(directory / "table.h5")
-        rows = zip(*(table[name].values for name in ("case", "setting")), strict=True) if "setting" in table else ()
+        names = ("case", "setting")
+        rows = zip(*(table[name].values for name in names), strict=True) if {*names} <= {*table} else ()
         if set(rows) == wanted:
             return Batch(directory=directory, plan=plan, table=table, missing=())
     return _collected(directory, plan)

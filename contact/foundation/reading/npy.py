@@ -1,6 +1,7 @@
 """NPY files of numbers, whose header is checked against the length of the file before memory is allocated."""
 
 import math
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from tokenize import TokenError
@@ -43,7 +44,8 @@ def read_header(path: Path, remedy: str) -> Header:
         try:
             version = np.lib.format.read_magic(file)
             read = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}[version]
-            shape, fortran, dtype = read(file)
+            with warnings.catch_warnings(action="ignore"):  # of headers that Python 2 wrote
+                shape, fortran, dtype = read(file)
         except DAMAGED_HEADER as error:
             raise InputError(f"{path}: is no whole NPY array; {remedy}") from error
         header = Header(shape=shape, dtype=dtype, fortran=fortran, start=file.tell())

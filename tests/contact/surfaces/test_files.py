@@ -130,6 +130,20 @@ def test_a_truncated_npy_is_refused(tmp_path, kept):
         read_surface(tmp_path / "s.npy", spacing=SPACING)
 
 
+@pytest.mark.parametrize(("shape", "whole"), [("(4L, 3L)", True), ("(4L, 3L1)", False), ("(4if 1else 3, 3)", False)])
+def test_an_npy_header_of_python_2_is_read_without_a_warning(tmp_path, shape, whole):
+    heights = np.arange(12.0).reshape(4, 3)
+    np.save(tmp_path / "s.npy", heights)
+    data = (tmp_path / "s.npy").read_bytes()
+    spaces = b" " * (len(shape) - len("(4, 3)"))
+    (tmp_path / "s.npy").write_bytes(data.replace(b"(4, 3), }" + spaces, shape.encode() + b", }"))
+    if whole:
+        assert np.array_equal(read_surface(tmp_path / "s.npy", spacing=SPACING).heights, heights)
+    else:
+        with pytest.raises(InputError, match="is no whole NPY array"):
+            read_surface(tmp_path / "s.npy", spacing=SPACING)
+
+
 def test_an_npy_header_beyond_its_file_takes_no_memory(tmp_path):
     head = {"descr": "<f8", "fortran_order": False, "shape": (30_000, 30_000)}
     with (tmp_path / "s.npy").open("wb") as file:

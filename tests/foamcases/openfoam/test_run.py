@@ -81,6 +81,14 @@ def test_fields_that_are_not_finite_are_refused(case):
         read_channel(case)
 
 
+def test_a_pressure_that_overflows_in_its_unit_is_refused(case):
+    run_case(case)
+    pressure = FoamCase(case)[-1]["p"]
+    pressure.internal_field = np.array(pressure.internal_field) + 1e307
+    with pytest.raises(ConvergenceError, match="its numbers overflow"):
+        read_channel(case)
+
+
 def test_a_case_that_was_not_run_is_refused(case):
     with pytest.raises(ConvergenceError, match="run the case first"):
         read_channel(case)

@@ -13,9 +13,11 @@ import h5py
 import numpy as np
 import pytest
 from batches import Batch, attempts, called, results, same_later, wait_for, write_study
+from forging import forge
 from places import SCENES, STUDIES
 
 from roughfilm.batch import execute
+from roughfilm.batch.plan import read_batch
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.writing.scratch import sweep
 from roughfilm.rom.ladder.model import always
@@ -57,6 +59,18 @@ def test_the_two_tables_say_the_same_and_name_their_units(tmp_path):
     assert [row["case"] for row in rows] == table["case"].tolist()
     with h5py.File(out / "table.h5") as file:
         assert file["load_per_area"].attrs["unit"] == "Pa"
+
+
+@pytest.mark.parametrize("column", ["case", "setting"])
+def test_a_table_without_the_names_of_its_rows_is_read_from_the_results(tmp_path, column):
+    out = tmp_path / "out"
+    assert Batch(POCKET, out, tmp_path).end()[0] == 0
+    before = read_batch(out).table
+    forge(out / "table.h5", lambda file: file.pop(column))
+    after = read_batch(out).table
+    assert {name: repr(one.values) for name, one in after.items()} == {
+        name: repr(one.values) for name, one in before.items()
+    }
 
 
 def test_a_case_holds_its_scene_and_whole_results(tmp_path):
