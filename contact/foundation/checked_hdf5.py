@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.reading.global_heaps import refuse_endless_heaps
 from roughfilm.contact.foundation.reading.hdf5_content import Content, Json, Numbers, Text
 from roughfilm.contact.foundation.reading.regular import holds_data, opened
 from roughfilm.contact.foundation.writing.kinds import SIGNATURE, Kind, beginning_with
@@ -169,6 +170,7 @@ def open_plain(path: Path, kind: str, remedy: str) -> Iterator[Content]:
 def _open(path: Path, kind: str, remedy: str) -> Iterator[Content]:
     import h5py  # slow to import
 
+    refuse_endless_heaps(path, remedy)
     try:
         file = h5py.File(path.expanduser(), "r", locking=False)
     except (OSError, RuntimeError, ValueError) as error:

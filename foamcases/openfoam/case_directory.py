@@ -1,6 +1,7 @@
 """Write the directory of a case completely or not at all, with a README, a shell script and a card to read it by."""
 
 import json
+import math
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
 CARD = "case.json"
 """Name of the card: the file of the options with which a case was written."""
+
+REMEDY = "generate the case again"
 
 MAX_CARD_BYTES = 1_000_000
 """Largest size of a card that is read, bytes."""
@@ -77,8 +80,15 @@ def write_papers(directory: Path, *, readme: str, allrun: str, card: "DataclassI
 
 
 def read_card(directory: Path, kind: type[SomeCard]) -> SomeCard:
-    """The card of a case, an object of the class ``kind``; InputError if the directory holds no such card."""
+    """The card of a case, an object of the class ``kind``, whose numbers are above 0.
+
+    Raises InputError if the directory holds no such card.
+    """
     try:
-        return from_json(read_bytes(directory / CARD, MAX_CARD_BYTES, "generate the case again"), kind)
+        card = from_json(read_bytes(directory / CARD, MAX_CARD_BYTES, REMEDY), kind)
     except ValueError as error:
-        raise InputError(f"{directory}: holds no {CARD} of this version; generate the case again") from error
+        raise InputError(f"{directory}: holds no {CARD} of this version; {REMEDY}") from error
+    for name, value in vars(card).items():
+        if isinstance(value, int | float) and not 0 < value < math.inf:
+            raise InputError(f"{directory / CARD}: {name}: got {value}; it must be above 0 and finite; {REMEDY}")
+    return card

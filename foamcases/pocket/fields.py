@@ -90,10 +90,10 @@ def read_channel(directory: Path) -> Channel:
     card = read_card(directory, Card)
     shape, nodes = (card.columns, card.layers), (card.columns + 1, card.layers + 1, 2)
     try:
+        corners = points(directory / "constant" / "polyMesh" / "points", math.prod(nodes))
         last, cells = last_fields(directory), card.columns * card.layers
         velocity = internal_field(last / "U", 3, cells).reshape(*shape, 3, order="F")[..., :2]
         pressure = internal_field(last / "p", 1, cells).reshape(shape, order="F")
-        corners = points(directory / "constant" / "polyMesh" / "points", math.prod(nodes))
     except InputError as error:
         raise ConvergenceError(f"{directory}: holds no finished fields ({error})") from error
     vertices = corners.reshape(*nodes, 3, order="F")[:, :, 0, :2]

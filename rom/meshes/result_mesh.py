@@ -29,7 +29,7 @@ def result_mesh(result: Result) -> Mesh:
     Raises
     ------
     InputError
-        If the result has no such fields, or its surface cannot be read.
+        If the result has no such fields, their shapes do not fit each other, or its surface cannot be read.
     """
     fields = result.fields
     if "vertices" in fields:
@@ -53,6 +53,8 @@ def labelled(name: str, field: Field) -> str:
 
 def _cells(fields: Mapping[str, Field]) -> Mesh:
     vertices = fields["vertices"].values
+    if vertices.shape[-1:] not in ((2,), (3,)) or vertices.ndim != vertices.shape[-1] + 1 or min(vertices.shape) < 2:
+        raise _misshapen("vertices", vertices.shape, "(nx+1, ny+1, 2) or (nx+1, ny+1, nz+1, 3)")
     mesh = grid(_in_space(vertices))
     shape = tuple(size - 1 for size in vertices.shape[:-1])
     data = _data(fields, shape)
@@ -60,11 +62,15 @@ def _cells(fields: Mapping[str, Field]) -> Mesh:
     if "kept" not in fields:
         return mesh
     kept = fields["kept"].values > 0
+    if kept.shape != shape[:2]:
+        raise _misshapen("kept", kept.shape, str(shape[:2]))
     return mesh.kept(np.repeat(kept.ravel(), mesh.cells.shape[0] // kept.size))
 
 
 def _plane(fields: Mapping[str, Field]) -> Mesh:
     x, y = fields["x"].values, fields["y"].values
+    if x.ndim != 2 or x.shape[0] < 2 or y.shape != x.shape:
+        raise _misshapen("x", x.shape, f"(nx, ny), as y has, which has {y.shape}")
     places = np.stack([y * np.cos(x), y * np.sin(x)] if fields["x"].unit == "rad" else [x, y], axis=-1)
     points = _in_space(places[:, 0] if x.shape[1] == 1 else places)
     mesh = grid(points)
@@ -82,6 +88,10 @@ def _period(fields: Mapping[str, Field], size: tuple[float, float]) -> Mesh:
     }
     nodes = (shape[0] + 1, shape[1] + 1)
     return Mesh(points=mesh.points, cell_type=mesh.cell_type, cells=mesh.cells, point_data=_data(whole, nodes))
+
+
+def _misshapen(name: str, shape: tuple[int, ...], allowed: str) -> InputError:
+    return InputError(f"field {name}: has the shape {shape}; it must be {allowed}; the file is damaged, solve it again")
 
 
 def _data(fields: Mapping[str, Field], shape: tuple[int, ...]) -> dict[str, Array]:

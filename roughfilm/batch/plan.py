@@ -1,5 +1,6 @@
 """The plan of a batch, ``study.json`` in its directory, and the results that its directory holds at any moment."""
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -23,6 +24,9 @@ PLAN = "study.json"
 
 MAX_PLAN_BYTES = 1_000_000_000
 """Largest size of a plan that is read, bytes: that of a million cases."""
+
+MAX_NAME_BYTES = 230
+"""Longest name of a case or a setting, bytes; file systems allow 255 with the suffix."""
 
 TO_COME = "not solved yet"
 """The outcome of a job without an answer."""
@@ -128,9 +132,17 @@ def _read_plan(path: Path) -> Plan | None:
         plan = from_json(read_bytes(path, MAX_PLAN_BYTES, "start the batch again"), Plan)
         if unknown := {name for varied in plan.cases.values() for name in varied} - {*plan.keys}:
             raise ValueError(f"no location of {min(unknown)}")
+        if wrong := [name for name in (*plan.cases, *plan.settings) if not _names_a_file(name)]:
+            raise ValueError(f"{wrong[0][:80]!r} names no file")
         return plan
     except ValueError as error:
         raise InputError(f"{path}: is not the plan of a batch; start the batch again, which writes it") from error
+
+
+def _names_a_file(name: str) -> bool:
+    """Whether a file in a directory can have a name, also with a suffix."""
+    wrong = name in {"", ".", ".."} or "/" in name or "\0" in name
+    return not wrong and len(os.fsencode(name)) <= MAX_NAME_BYTES
 
 
 def _collected(directory: Path, plan: Plan) -> Batch:

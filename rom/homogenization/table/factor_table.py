@@ -9,11 +9,14 @@ from typing import Any, Self
 import numpy as np
 import scipy
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, finite_arithmetic
 from roughfilm.contact.foundation.compiled import compiled
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.homogenization.factors import FlowFactors
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
+
+PLACE = "flow factors"
+"""What computes, for the messages of errors."""
 
 SMOOTH_ROW = np.array([1.0, 1, 0, 1, 0, 1, 0])
 """The :func:`relative_row` of a smooth film."""
@@ -180,31 +183,34 @@ class FactorTable:
     @cached_property
     def _rows(self) -> tuple[Array, Array]:
         """The numbers of :func:`relative_row` and their slopes, shape (n, 7)."""
-        rows = np.array([relative_row(point.factors) for point in self.points])
+        with finite_arithmetic(PLACE):
+            rows = np.array([relative_row(point.factors) for point in self.points])
         return rows, np.array([point.slopes for point in self.points])
 
     @cached_property
     def _roots(self) -> "scipy.interpolate.CubicHermiteSpline":
         """∛A₁₁ and ∛A₂₂, m, over ĥ, m."""
         rows, slopes = (part[:, :2] for part in self._rows)
-        relative = np.divide(slopes, rows, out=np.full(rows.shape, np.nan), where=rows > 0)
-        values = self._knots[:, None] * np.cbrt(rows)
-        return _hermite(self._knots, values, np.cbrt(rows) * (1 + relative / 3), limited=True)
+        with finite_arithmetic(PLACE):
+            relative = np.divide(slopes, rows, out=np.full(rows.shape, np.nan), where=rows > 0)
+            values = self._knots[:, None] * np.cbrt(rows)
+            return _hermite(self._knots, values, np.cbrt(rows) * (1 + relative / 3), limited=True)
 
     @cached_property
     def _others(self) -> "scipy.interpolate.CubicHermiteSpline":
         """A₁₂/√(A₁₁A₂₂), B₁/ĥ, B₂/ĥ, d ĥ and e ĥ over ln ĥ; the first is that of the nearest point where A is 0."""
         rows, slopes = self._rows
-        values, changes = rows[:, 2:].copy(), slopes[:, 2:].copy()
-        mean = np.sqrt(rows[:, 0] * rows[:, 1])
-        known = np.flatnonzero(mean > 0)
-        if known.size:
-            nearest = known[np.abs(known - np.arange(mean.size)[:, None]).argmin(axis=1)]
-            values[:, 0] = rows[nearest, 2] / mean[nearest]
-            relative = (slopes[known, :2] / rows[known, :2]).mean(axis=1)
-            changes[known, 0] = slopes[known, 2] / mean[known] - values[known, 0] * relative
-        changes[mean == 0, 0] = 0.0
-        return _hermite(np.log(self._knots), values, changes, limited=False)
+        with finite_arithmetic(PLACE):
+            values, changes = rows[:, 2:].copy(), slopes[:, 2:].copy()
+            mean = np.sqrt(np.maximum(rows[:, 0] * rows[:, 1], 0.0))
+            known = np.flatnonzero(mean > 0)
+            if known.size:
+                nearest = known[np.abs(known - np.arange(mean.size)[:, None]).argmin(axis=1)]
+                values[:, 0] = rows[nearest, 2] / mean[nearest]
+                relative = (slopes[known, :2] / rows[known, :2]).mean(axis=1)
+                changes[known, 0] = slopes[known, 2] / mean[known] - values[known, 0] * relative
+            changes[mean == 0, 0] = 0.0
+            return _hermite(np.log(self._knots), values, changes, limited=False)
 
 
 def _hermite(places: Array, values: Array, slopes: Array, *, limited: bool) -> "scipy.interpolate.CubicHermiteSpline":

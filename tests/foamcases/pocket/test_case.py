@@ -82,6 +82,15 @@ def test_a_directory_without_a_card_is_refused(tmp_path):
         read_card(tmp_path, Card)
 
 
+@pytest.mark.parametrize(("name", "value"), [("columns", 0), ("layers", -1), ("reynolds_number", "Infinity")])
+def test_a_card_with_a_number_out_of_range_is_refused(make_scene, tmp_path, name, value):
+    NAVIER_STOKES.write(make_scene(0.3, 0.25, 160), tmp_path, Request(resolution=20))
+    text = (tmp_path / "case.json").read_text(encoding="utf-8")
+    (tmp_path / "case.json").write_text(re.sub(rf'"{name}": [\d.]+', f'"{name}": {value}', text), encoding="utf-8")
+    with pytest.raises(InputError, match=r"case\.json"):
+        read_card(tmp_path, Card)
+
+
 def test_a_path_with_a_blank_is_refused_before_openfoam_stumbles_over_it(make_scene, tmp_path):
     with pytest.raises(InputError, match="takes no blanks in a path"):
         NAVIER_STOKES.write(make_scene(0.3, 0.25, 1), tmp_path / "my case", Request(resolution=20))

@@ -5,6 +5,7 @@ import json
 import meshio
 import numpy as np
 import pytest
+from forging import forge
 from places import SCENES
 from typer.testing import CliRunner
 
@@ -63,6 +64,27 @@ def test_a_result_is_written(run, tmp_path):
     assert {"cell_pressure (Pa)", "cell_velocity (m/s)"} == set(meshio.read(tmp_path / "film.vtu").cell_data)
     assert "position (m)" in told["provenance"]["left_out"]
     assert told["provenance"]["model"] == "film"
+
+
+@pytest.mark.parametrize(
+    ("model", "field"), [("film", "vertices"), ("reynolds_cavitating", "x"), ("reynolds_cavitating", "y")]
+)
+@pytest.mark.parametrize("shape", [(), (3,), (25, 5, 1), (25, 5, 4), (1, 5, 2), (2, 2, 2, 2, 2)])
+def test_positions_of_another_shape_are_refused_in_one_line(run, tmp_path, model, field, shape):
+    scene, resolution = ("pocket", "24") if model == "film" else ("textured_slider", "32")
+    solve = ["solve", str(SCENES / f"{scene}.toml"), "--model", model, "--resolution", resolution, "--out"]
+    assert CliRunner().invoke(app, [*solve, str(tmp_path / "r.h5")]).exit_code == 0
+
+    def change(file):
+        del file[f"fields/{field}"]
+        file[f"fields/{field}"] = np.ones(shape)
+        file[f"fields/{field}"].attrs["unit"] = "m"
+
+    forge(tmp_path / "r.h5", change)
+    done = run(tmp_path / "r.h5", "--out", tmp_path / "r.vtu")
+    assert done.exit_code == 2, done.exception
+    assert done.stderr.count("error:") == 1
+    assert not (tmp_path / "r.vtu").exists()
 
 
 @pytest.mark.parametrize(

@@ -197,6 +197,18 @@ def test_a_directory_of_an_older_version_has_no_plan_and_is_reported_all_the_sam
     assert "(case " in page.text
 
 
+@pytest.mark.parametrize("name", ["a" * 300, "../elsewhere", "..", "", "a\\u0000"])
+def test_a_plan_with_a_case_that_has_no_directory_is_refused_in_one_line(pockets, tmp_path, name):
+    done = tmp_path / "done"
+    shutil.copytree(pockets, done)
+    text = (done / "study.json").read_text(encoding="utf-8")
+    case = next((done / "cases").iterdir()).name
+    (done / "study.json").write_text(text.replace(f'"{case}"', f'"{name}"'), encoding="utf-8")
+    run = CliRunner().invoke(app, ["report", str(done)])
+    assert run.exit_code == 2
+    assert "is not the plan of a batch" in " ".join(run.stderr.split())
+
+
 SOMMERFELD = """
 name = "long journal"
 kind = "bearing"

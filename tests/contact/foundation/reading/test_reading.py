@@ -9,7 +9,8 @@ import pytest
 from forging import forge
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.reading import limits
+from roughfilm.contact.foundation.reading import global_heaps, limits
+from roughfilm.contact.foundation.reading.global_heaps import refuse_endless_heaps
 from roughfilm.contact.foundation.reading.json_entries import from_json
 from roughfilm.contact.foundation.reading.npy import read_header, read_numbers
 from roughfilm.contact.foundation.reading.regular import file_size, holds_data, opened, read_bytes, read_text
@@ -120,6 +121,46 @@ def test_forged_content_is_refused_in_one_line(surface_file, change):
     assert message.startswith(f"{surface_file}: is damaged or incomplete ({FORGED[change][1]}")
     assert message.endswith("; make it again")
     assert "\n" not in message
+
+
+TEXTS = [f"{number:0{5 * number}}" for number in range(1, 300)]
+
+
+@pytest.fixture
+def file_of_texts(tmp_path):
+    with h5py.File(tmp_path / "t.h5", "w") as file:
+        file.create_dataset("texts", data=TEXTS, dtype=h5py.string_dtype())
+    return tmp_path / "t.h5"
+
+
+def test_whole_global_heaps_are_read(file_of_texts):
+    assert file_of_texts.read_bytes().count(b"GCOL") > 3
+    refuse_endless_heaps(file_of_texts, "make it again")
+
+
+@pytest.mark.parametrize("last", [False, True])
+@pytest.mark.parametrize(
+    ("number", "length"),
+    [(0, 0), (1, 2**64 - 16), (1, 2**64 - 8), (0, 10**6)],
+    ids=["0", "to itself", "0 * 8", "beyond"],
+)
+def test_a_global_heap_that_the_library_reads_for_ever_is_refused(file_of_texts, number, length, last):
+    """The second object of the first or the last collection."""
+    data = bytearray(file_of_texts.read_bytes())
+    start = (data.rfind if last else data.find)(b"GCOL")
+    place = start + 32 + -(-int.from_bytes(data[start + 24 : start + 32], "little") // 8) * 8
+    data[place : place + 2], data[place + 8 : place + 16] = number.to_bytes(2, "little"), length.to_bytes(8, "little")
+    file_of_texts.write_bytes(data)
+    with pytest.raises(InputError, match=rf"is damaged \(texts at byte {start}\); make it again$"):
+        refuse_endless_heaps(file_of_texts, "make it again")
+
+
+def test_a_signature_between_two_chunks_is_found(tmp_path, monkeypatch):
+    (tmp_path / "t.h5").write_bytes(bytes(10) + b"GCOL\1\0\0\0" + bytes(40))
+    for length in range(1, 30):
+        monkeypatch.setattr(global_heaps, "CHUNK_BYTES", length)
+        with pytest.raises(InputError, match="texts at byte 10"):
+            refuse_endless_heaps(tmp_path / "t.h5", "make it again")
 
 
 def test_an_array_is_read_in_its_order_and_no_object_is_unpickled(tmp_path):

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.homogenization.table.factor_table import relative_row, relative_rows
@@ -277,3 +277,10 @@ def test_invalid_gaps_and_tolerances_are_refused(gap, options, words):
 def test_invalid_spacings_are_refused(spacing):
     with pytest.raises(InputError, match="spacing"):
         flow_factors(np.ones((8, 8)), spacing)
+
+
+def test_factors_beyond_all_numbers_are_one_line(table):
+    first, *others = table.points
+    factors = dataclasses.replace(first.factors, shear=np.array([1e306, 0.0]))
+    with pytest.raises(ConvergenceError, match="flow factors: its numbers overflow"):
+        dataclasses.replace(table, points=[dataclasses.replace(first, factors=factors), *others])(np.array([1e-6]))
