@@ -3,7 +3,7 @@
 import json
 import math
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -24,7 +24,7 @@ REMEDY = "generate the case again"
 MAX_CARD_BYTES = 1_000_000
 """Largest size of a card that is read, bytes."""
 
-SomeCard = TypeVar("SomeCard")
+SomeCard = TypeVar("SomeCard", bound="DataclassInstance")
 
 TOLERANCES = (1e-10, 1e-2)
 """Least and greatest tolerance allowed: the residual at which a run may end."""
@@ -80,7 +80,9 @@ def write_papers(directory: Path, *, readme: str, allrun: str, card: "DataclassI
 
 
 def read_card(directory: Path, kind: type[SomeCard]) -> SomeCard:
-    """The card of a case, an object of the class ``kind``, whose numbers are above 0.
+    """The card of a case, an object of the class ``kind``.
+
+    Its numbers are finite, and above 0 or at least the ``least`` in the metadata of their field.
 
     Raises InputError if the directory holds no such card.
     """
@@ -88,7 +90,11 @@ def read_card(directory: Path, kind: type[SomeCard]) -> SomeCard:
         card = from_json(read_bytes(directory / CARD, MAX_CARD_BYTES, REMEDY), kind)
     except ValueError as error:
         raise InputError(f"{directory}: holds no {CARD} of this version; {REMEDY}") from error
-    for name, value in vars(card).items():
-        if isinstance(value, int | float) and not 0 < value < math.inf:
-            raise InputError(f"{directory / CARD}: {name}: got {value}; it must be above 0 and finite; {REMEDY}")
+    for field in fields(kind):
+        value, least = getattr(card, field.name), field.metadata.get("least", math.ulp(0.0))
+        if isinstance(value, int | float) and not least <= value < math.inf:
+            allowed = "0 or more" if least == 0 else "above 0"
+            raise InputError(
+                f"{directory / CARD}: {field.name}: got {value}; it must be {allowed} and finite; {REMEDY}"
+            )
     return card

@@ -1,7 +1,7 @@
 """Write the case directory of a rough gap: one mesh, and one case of simpleFoam for each drive of the flow."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
@@ -65,14 +65,14 @@ class GapCard:
     Attributes
     ----------
     layers : number of cells across the gap.
-    cells : number of cells of the mesh.
+    cells : number of cells of the mesh; 0 where contact leaves no open gap.
     dialect : name of the dialect of OpenFOAM in which the cases are written.
     judged : for each drive, the fields that are not constant, the main velocity first.
     relaxation : for each drive, the relaxation of velocity.
     """
 
     layers: int
-    cells: int
+    cells: int = field(metadata={"least": 0})
     reynolds_number: float
     resolution: int
     tolerance: float
