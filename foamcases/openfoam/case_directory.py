@@ -82,7 +82,7 @@ def write_papers(directory: Path, *, readme: str, allrun: str, card: "DataclassI
 def read_card(directory: Path, kind: type[SomeCard]) -> SomeCard:
     """The card of a case, an object of the class ``kind``.
 
-    Its numbers are finite, and above 0 or at least the ``least`` in the metadata of their field.
+    Its numbers are finite and above 0; 0 is allowed where the metadata of the field say ``may_be_zero``.
 
     Raises InputError if the directory holds no such card.
     """
@@ -91,9 +91,9 @@ def read_card(directory: Path, kind: type[SomeCard]) -> SomeCard:
     except ValueError as error:
         raise InputError(f"{directory}: holds no {CARD} of this version; {REMEDY}") from error
     for field in fields(kind):
-        value, least = getattr(card, field.name), field.metadata.get("least", math.ulp(0.0))
-        if isinstance(value, int | float) and not least <= value < math.inf:
-            allowed = "0 or more" if least == 0 else "above 0"
+        value, may_be_zero = getattr(card, field.name), field.metadata.get("may_be_zero", False)
+        if isinstance(value, int | float) and not (0 < value < math.inf or (may_be_zero and value == 0)):
+            allowed = "0 or more" if may_be_zero else "above 0"
             raise InputError(
                 f"{directory / CARD}: {field.name}: got {value}; it must be {allowed} and finite; {REMEDY}"
             )

@@ -72,7 +72,7 @@ class GapCard:
     """
 
     layers: int
-    cells: int = field(metadata={"least": 0})
+    cells: int = field(metadata={"may_be_zero": True})
     reynolds_number: float
     resolution: int
     tolerance: float

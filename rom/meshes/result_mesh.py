@@ -70,7 +70,7 @@ def _cells(fields: Mapping[str, Field]) -> Mesh:
 def _plane(fields: Mapping[str, Field]) -> Mesh:
     x, y = fields["x"].values, fields["y"].values
     if x.ndim != 2 or x.shape[0] < 2 or y.shape != x.shape:
-        raise _misshapen("x", x.shape, f"(nx, ny), as y has, which has {y.shape}")
+        raise _misshapen("x", x.shape, f"(nx, ny) with nx above 1, as the shape of y, {y.shape}")
     places = np.stack([y * np.cos(x), y * np.sin(x)] if fields["x"].unit == "rad" else [x, y], axis=-1)
     points = _in_space(places[:, 0] if x.shape[1] == 1 else places)
     mesh = grid(points)

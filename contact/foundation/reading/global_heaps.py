@@ -1,9 +1,11 @@
-"""A check of the global heaps of HDF5 files, which hold texts: the HDF5 library never ends in a damaged one.
+"""A check of the global heaps of HDF5 files, in which texts are stored.
+
+The HDF5 library reads some damaged heaps without end, so they are checked before the library opens the file.
 
 A collection of a heap begins with the signature "GCOL", version 1 and three zero bytes, and its length in 8 bytes. Its
 objects follow, each with a header of 16 bytes: number (2), references (2), zeros (4), length (8). An object of number 0
 is free space, whose length includes the header; the content of another fills a multiple of 8 bytes behind the header.
-The library goes from object to object, and from one of length 0 to itself.
+The library steps from each object to the next by its length; with a length of 0 it stays at one object for ever.
 
 Source: HDF5 File Format Specification, version 3.0, section III.E.
 """
@@ -28,13 +30,26 @@ CHUNK_BYTES = 1 << 22
 
 
 def refuse_endless_heaps(path: Path, remedy: str) -> None:
-    """Raise InputError if a global heap of an HDF5 file has an object that does not end inside its collection."""
+    """Check the objects of all collections in an HDF5 file; the file is read once.
+
+    Parameters
+    ----------
+    path : the file; its lengths have 8 bytes, as h5py writes them.
+    remedy : the end of the error message.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, an object does not end inside its collection, or two collections overlap.
+    """
+    end = 0
     with opened(path, remedy) as file:
         for start in [*_collections(file)]:
             file.seek(start)
             length = _number(file.read(HEADER_BYTES), 8, 8) - HEADER_BYTES
-            if not 0 <= length < MAX_BYTES or not _ends(file.read(length)):
+            if start < end or not 0 <= length < MAX_BYTES or not _ends(file.read(length)):
                 raise InputError(f"{path}: is damaged (texts at byte {start}); {remedy}")
+            end = start + HEADER_BYTES + length
 
 
 def _collections(file: BinaryIO) -> Iterator[int]:

@@ -155,6 +155,17 @@ def test_a_global_heap_that_the_library_reads_for_ever_is_refused(file_of_texts,
         refuse_endless_heaps(file_of_texts, "make it again")
 
 
+def test_collections_that_overlap_are_refused(tmp_path):
+    """Otherwise a file of many collections, each of which claims all bytes behind it, would be read many times."""
+    collection = b"GCOL\1\0\0\0" + (16).to_bytes(8, "little")
+    (tmp_path / "whole.h5").write_bytes(collection * 400_000)
+    refuse_endless_heaps(tmp_path / "whole.h5", "make it again")
+    outer = b"GCOL\1\0\0\0" + (16 + 32).to_bytes(8, "little") + b"\1" + bytes(7) + (16).to_bytes(8, "little")
+    (tmp_path / "t.h5").write_bytes(outer + collection)
+    with pytest.raises(InputError, match="texts at byte 32"):
+        refuse_endless_heaps(tmp_path / "t.h5", "make it again")
+
+
 def test_a_signature_between_two_chunks_is_found(tmp_path, monkeypatch):
     (tmp_path / "t.h5").write_bytes(bytes(10) + b"GCOL\1\0\0\0" + bytes(40))
     for length in range(1, 30):
