@@ -79,7 +79,7 @@ def _table(path: tuple[str, ...], node: Node, example: Node | None, definitions:
     """The lines of a table: its own keys, and then the tables in it; all are comments without an example."""
     tables = []
     for key, given in node["properties"].items():
-        ways = [*_ways(given, definitions)]
+        ways = [*forms_of(given, definitions)]
         plain = [way for way in ways if "properties" not in way]
         whole = [way for way in ways if "properties" in way]
         value = None if example is None else example.get(key)
@@ -99,13 +99,13 @@ def _table(path: tuple[str, ...], node: Node, example: Node | None, definitions:
             yield from _table(inner, way, value, definitions)
 
 
-def _ways(node: Node, definitions: Node) -> Iterator[Node]:
+def forms_of(node: Node, definitions: Node) -> Iterator[Node]:
     """The forms that an entry may have."""
     if "$ref" in node:
-        yield from _ways(definitions[node["$ref"].rpartition("/")[2]], definitions)
+        yield from forms_of(definitions[node["$ref"].rpartition("/")[2]], definitions)
     elif "anyOf" in node or "oneOf" in node:
         for way in node.get("anyOf", node.get("oneOf", ())):
-            yield from _ways(way, definitions)
+            yield from forms_of(way, definitions)
     else:
         yield node
 
@@ -124,11 +124,11 @@ def _line(key: str, node: Node, value: object) -> Iterator[str]:
         notes.append(" or ".join(map(toml_value, node["enum"])))
     if value is None and "default" in node:
         notes.append("default")
-    shown = toml_value(_sample(key, node) if value is None else value)
+    shown = toml_value(sample_of(key, node) if value is None else value)
     return _wrapped(f"{'# ' if value is None else ''}{key} = {shown}", "; ".join(filter(None, notes)))
 
 
-def _sample(key: str, node: Node) -> object:
+def sample_of(key: str, node: Node) -> object:
     """A value for a key without one: its default, or one that makes sense."""
     if "default" in node:
         return node["default"]
@@ -139,7 +139,25 @@ def _sample(key: str, node: Node) -> object:
         return optional[key]
     if "enum" in node:
         return node["enum"][0]
+    if key in _values():
+        return _values()[key]
     return f"1 {node[UNIT]}" if UNIT in node else "..." if node.get("type") == "string" else 1
+
+
+@cache
+def _values() -> Mapping[str, object]:
+    """The first value of each key in the examples."""
+    found: dict[str, object] = {}
+
+    def collect(table: Mapping[str, object]) -> None:
+        for key, value in table.items():
+            if isinstance(value, dict):
+                collect(value)
+            else:
+                found.setdefault(key, value)
+
+    collect(_examples())
+    return found
 
 
 def _wrapped(text: str, meaning: str) -> Iterator[str]:

@@ -46,7 +46,8 @@ def meanings(model: type) -> dict[str, str]:
 
 def _plain(text: str) -> str:
     """A sentence of a docstring in the words of a file, which has no None: "; None if wide" is "; left out if wide"."""
-    return " ".join(text.replace("``", "").replace("; None ", "; left out ").split())
+    words = re.sub(r", see roughfilm[\w.]+", "", text)
+    return " ".join(words.replace("``", "").replace("; None ", "; left out ").split())
 
 
 class _SceneSchema(GenerateJsonSchema):

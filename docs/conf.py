@@ -1,0 +1,86 @@
+"""Sphinx: how the manual is built, without a network, into pages that open from a disk."""
+
+import os
+import sys
+from importlib.metadata import version as version_of
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from scripts.manual import commands, formulas, interface, scene_keys, studies  # noqa: E402
+
+KINDS = ("pocket", "bearing", "dry_contact", "seal", "rough_gap")
+
+project, author, copyright = "roughfilm", "the authors of roughfilm", "the authors of roughfilm"  # noqa: A001
+version = release = version_of("roughfilm")
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx_gallery.gen_gallery",
+]
+myst_enable_extensions = ["dollarmath", "colon_fence"]
+myst_heading_anchors = 4
+myst_dmath_double_inline = True
+exclude_patterns = ["**/README.rst", "sg_execution_times.rst", "gallery/**/*.ipynb"]
+html_theme = "pydata_sphinx_theme"
+html_title = f"roughfilm {release}"
+html_static_path = ["_static"]
+html_css_files = ["manual.css"]
+html_math_renderer = "mathml"
+html_copy_source = html_show_sourcelink = False
+html_theme_options: dict[str, Any] = {
+    "navigation_with_keys": False,
+    "secondary_sidebar_items": ["page-toc"],
+    "show_prev_next": True,
+    "show_toc_level": 2,
+    "footer_start": ["copyright"],
+    "footer_end": [],
+}
+autodoc_typehints = "description"
+autodoc_typehints_description_target = "documented_params"
+autodoc_member_order = "bysource"
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+nitpicky = False
+
+LONG = os.environ.get("ROUGHFILM_LONG_EXAMPLES") == "yes"
+sphinx_gallery_conf = {
+    "examples_dirs": [str(ROOT / "scripts" / "examples" / "gallery")],
+    "gallery_dirs": ["gallery"],
+    "filename_pattern": r"\.py$" if LONG else r"/(?!long_)\w+\.py$",
+    "download_all_examples": False,
+    "show_memory": False,
+    "min_reported_time": 1e9,
+    "remove_config_comments": True,
+    "plot_gallery": "True",
+    "abort_on_example_error": True,
+    "backreferences_dir": None,
+    "within_subsection_order": "FileNameSortKey",
+    "thumbnail_size": (400, 280),
+}
+
+
+def _write_references(_app: Any) -> None:
+    """Write the pages that follow from the code and the studies, where they have changed."""
+    pages = {f"reference/generated/keys_{kind}": scene_keys.page(kind) for kind in KINDS}
+    pages |= {"reference/generated/commands": commands.page(), "reference/generated/api": interface.page()}
+    pages |= {f"source/studies/{name}": text for name, text in studies.pages().items()}
+    for name, text in pages.items():
+        path = ROOT / "docs" / f"{name}.md"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+
+
+def _docstring(_app: Any, _what: str, _name: str, _object: Any, _options: Any, lines: list[str]) -> None:
+    lines[:] = interface.with_meanings_below(lines)
+
+
+def setup(app: Any) -> None:
+    """Add what the manual takes from the code, and its formulas."""
+    app.add_html_math_renderer("mathml", (formulas.inline, None), (formulas.displayed, formulas.end_displayed))
+    app.connect("builder-inited", _write_references, priority=1)
+    app.connect("autodoc-process-docstring", _docstring, priority=1)

@@ -1,0 +1,1 @@
+"""What the manual takes from the code: keys of scenes, commands, the interface of Python; and its formulas."""

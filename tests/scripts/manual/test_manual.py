@@ -1,0 +1,62 @@
+"""What the manual takes from the code: every key, command and name, formulas that browsers draw, links that lead on."""
+
+from pathlib import Path
+
+import pytest
+
+import roughfilm
+from roughfilm.cli.main import COMMANDS
+from roughfilm.scenes.json_schema import schema_of
+from scripts.manual import commands, interface, scene_keys
+from scripts.manual.links import broken
+
+
+def _keys(schema: object) -> set[str]:
+    """The names of all properties of a JSON Schema."""
+    if isinstance(schema, list):
+        return set().union(*map(_keys, schema))
+    if not isinstance(schema, dict):
+        return set()
+    return {*schema.get("properties", {})}.union(*map(_keys, schema.values()))
+
+
+@pytest.mark.parametrize("kind", ["bearing", "dry_contact", "pocket", "rough_gap", "seal"])
+def test_every_key_has_a_meaning_and_an_example(kind: str) -> None:
+    keys = [key for _, _, keys in scene_keys.tables(kind) for key in keys]
+    assert {key.name for key in keys} == _keys(schema_of(kind))
+    assert [key.name for key in keys if not key.example or not key.range] == []
+    tables = {"geometry", "lubricant", "roughness", "kind", "shape", "law"}
+    assert [key.name for key in keys if not key.meaning and key.name not in tables] == []
+
+
+def test_units_and_ranges_of_a_quantity_follow_from_the_schema() -> None:
+    ((_, _, keys),) = [one for one in scene_keys.tables("bearing") if one[0] == "[motion]"]
+    speed = next(key for key in keys if key.name == "speed")
+    assert (speed.unit, speed.default, speed.range[:8]) == ("m/s", "required", "any sign")
+    viscosity = next(key for _, _, keys in scene_keys.tables("pocket") for key in keys if key.name == "viscosity")
+    assert (viscosity.unit, viscosity.default, viscosity.range[:7]) == ("Pa*s", "required", "above 0")
+
+
+def test_the_page_of_commands_has_every_command_and_option() -> None:
+    page = commands.page()
+    assert [name for name in COMMANDS if f"\n### {name}\n" not in page] == []
+    solve = page.partition("### solve")[2].partition("\n### ")[0]
+    assert all(f"`{option}" in solve for option in ("SCENE", "--model", "--within", "--out", "--set", "--json"))
+
+
+def test_the_page_of_the_interface_has_every_name() -> None:
+    page = interface.page()
+    assert [name for name in roughfilm.__all__ if f"roughfilm.{name}\n" not in page] == ["__version__"]
+
+
+def test_a_link_that_leads_nowhere_is_named(tmp_path: Path) -> None:
+    (tmp_path / "other.html").write_text('<p id="here">')
+    (tmp_path / "page.html").write_text(
+        '<a href="other.html#here"></a><a href="other.html#there"></a><a href="absent.html"></a>'
+        '<a href="https://example.org"></a><img src="https://example.org/picture.png">'
+    )
+    assert [*broken(tmp_path)] == [
+        "page.html: absent.html",
+        "page.html: loads https://example.org/picture.png",
+        "page.html: other.html#there",
+    ]
