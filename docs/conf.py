@@ -6,13 +6,18 @@ from importlib.metadata import version as version_of
 from pathlib import Path
 from typing import Any
 
+from sphinx.util import logging
+
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from scripts.manual import commands, formulas, interface, scene_keys, studies  # noqa: E402
+from scripts.manual import commands, formulas, interface, kept_examples, scene_keys, studies  # noqa: E402
 
+GALLERY, KEPT = ROOT / "docs" / "gallery", ROOT / "docs" / "kept_examples"
+EXAMPLES = ROOT / "scripts" / "examples" / "gallery"
 KINDS = ("pocket", "bearing", "dry_contact", "seal", "rough_gap")
 
+LOG = logging.getLogger(__name__)
 project, author, copyright = "roughfilm", "the authors of roughfilm", "the authors of roughfilm"  # noqa: A001
 version = release = version_of("roughfilm")
 extensions = [
@@ -24,7 +29,7 @@ extensions = [
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 4
 myst_dmath_double_inline = True
-exclude_patterns = ["**/README.rst", "sg_execution_times.rst", "gallery/**/*.ipynb"]
+exclude_patterns = ["**/README.rst", "kept_examples", "sg_execution_times.rst", "gallery/**/*.ipynb"]
 html_theme = "pydata_sphinx_theme"
 html_title = f"roughfilm {release}"
 html_static_path = ["_static"]
@@ -46,12 +51,14 @@ napoleon_google_docstring = False
 napoleon_use_rtype = False
 nitpicky = False
 
-LONG = os.environ.get("ROUGHFILM_LONG_EXAMPLES") == "yes"
+RUN_LONG = os.environ.get("ROUGHFILM_LONG_EXAMPLES") == "yes"
 sphinx_gallery_conf = {
-    "examples_dirs": [str(ROOT / "scripts" / "examples" / "gallery")],
+    "examples_dirs": [str(EXAMPLES)],
     "gallery_dirs": ["gallery"],
-    "filename_pattern": r"\.py$" if LONG else r"/(?!long_)\w+\.py$",
+    "filename_pattern": r"\.py$" if RUN_LONG else rf"/(?!{kept_examples.BEGINNING})\w+\.py$",
     "download_all_examples": False,
+    "notebook_extensions": set(),
+    "show_signature": False,
     "show_memory": False,
     "min_reported_time": 1e9,
     "remove_config_comments": True,
@@ -75,6 +82,21 @@ def _write_references(_app: Any) -> None:
             path.write_text(text, encoding="utf-8")
 
 
+def _restore_long_examples(_app: Any) -> None:
+    """Take the kept pages of examples that take long, unless these are run."""
+    if RUN_LONG:
+        return
+    kept_examples.restore(KEPT, GALLERY, EXAMPLES)
+    for name in kept_examples.outdated(EXAMPLES, KEPT):
+        LOG.warning("the kept page of %s is missing or that of another program; run ./scripts/docs --all", name)
+
+
+def _keep_long_examples(_app: Any, error: Exception | None) -> None:
+    """Keep the pages of examples that take long, if they were run."""
+    if RUN_LONG and error is None:
+        kept_examples.keep(GALLERY, KEPT)
+
+
 def _docstring(_app: Any, _what: str, _name: str, _object: Any, _options: Any, lines: list[str]) -> None:
     lines[:] = interface.with_meanings_below(lines)
 
@@ -83,4 +105,6 @@ def setup(app: Any) -> None:
     """Add what the manual takes from the code, and its formulas."""
     app.add_html_math_renderer("mathml", (formulas.inline, None), (formulas.displayed, formulas.end_displayed))
     app.connect("builder-inited", _write_references, priority=1)
+    app.connect("builder-inited", _restore_long_examples, priority=1)
+    app.connect("build-finished", _keep_long_examples)
     app.connect("autodoc-process-docstring", _docstring, priority=1)

@@ -1,5 +1,6 @@
 """What the manual takes from the code: every key, command and name, formulas that browsers draw, links that lead on."""
 
+import hashlib
 from pathlib import Path
 
 import pytest
@@ -7,7 +8,7 @@ import pytest
 import roughfilm
 from roughfilm.cli.main import COMMANDS
 from roughfilm.scenes.json_schema import schema_of
-from scripts.manual import commands, interface, scene_keys
+from scripts.manual import commands, interface, kept_examples, scene_keys
 from scripts.manual.links import broken
 
 
@@ -60,3 +61,28 @@ def test_a_link_that_leads_nowhere_is_named(tmp_path: Path) -> None:
         "page.html: loads https://example.org/picture.png",
         "page.html: other.html#there",
     ]
+
+
+def test_a_kept_example_serves_until_its_program_changes(tmp_path: Path) -> None:
+    examples, built, kept = tmp_path / "examples", tmp_path / "built", tmp_path / "kept"
+    for folder in (examples / "gaps", built / "gaps" / "images"):
+        folder.mkdir(parents=True)
+    program = examples / "gaps" / "long_flow.py"
+    program.write_text("print(1)\n")
+    assert [*kept_examples.outdated(examples, kept)] == ["gaps/long_flow.py"]
+    (built / "gaps" / "long_flow.rst").write_text("1")
+    (built / "gaps" / "long_flow.py.md5").write_text(hashlib.md5(b"print(1)\n").hexdigest())
+    (built / "gaps" / "images" / "sphx_glr_long_flow_001.png").write_bytes(b"")
+    (built / "gaps" / "short.rst").write_text("2")
+    kept_examples.keep(built, kept)
+    assert [*kept_examples.outdated(examples, kept)] == []
+    kept_examples.restore(kept, tmp_path / "again", examples)
+    assert sorted(path.name for path in (tmp_path / "again").rglob("*.*")) == [
+        "long_flow.py",
+        "long_flow.py.md5",
+        "long_flow.rst",
+        "long_flow.zip",
+        "sphx_glr_long_flow_001.png",
+    ]
+    program.write_text("print(2)\n")
+    assert [*kept_examples.outdated(examples, kept)] == ["gaps/long_flow.py"]
