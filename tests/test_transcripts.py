@@ -8,11 +8,12 @@ The blocks of a page run in order in one empty directory:
 - ``python`` runs in one namespace for the page; a ``text`` block directly below it shows what it prints;
 - ``console norun`` and ``python norun`` are not run.
 
-In what is shown, ``…`` stands for any text. Numbers may differ by one in the last digit that is shown, times and
-residuals by any amount, and lines may be broken anywhere.
+In what is shown, ``…`` stands for any text. Numbers may differ by one in the last digit that is shown; times, residuals
+and numbers of iterations by any amount. Lines may be broken anywhere.
 """
 
 import contextlib
+import functools
 import io
 import re
 import shlex
@@ -46,9 +47,15 @@ BLOCK = re.compile(
     re.MULTILINE | re.DOTALL,
 )
 COMMAND = re.compile(r"^\$ (?P<line>(?:.*\\\n)*.*)\n(?P<printed>(?:(?!\$ ).*\n)*)", re.MULTILINE)
-TIME = re.compile(r"\b\d[\d.e+-]*(?=\s+(?:CPU\s+)?(?:s|ms|min|h)\b)")
+VARYING = re.compile(r"\b\d[\d.e+-]*(?=\s+(?:(?:CPU\s+)?(?:s|ms|min|h)|iterations)\b)")
+"""Times and numbers of iterations."""
+
 ONE_TIME = re.compile(r"\s*\(\+ [^)]*\)")
 """Times of what is done once, such as compiling or loading kernels; it depends on what ran before."""
+
+RULE = re.compile("─+")
+"""The line below the titles of a table, as long as its columns are wide."""
+
 RESIDUAL = re.compile(r"(?<=residual )\d[\d.e+-]*")
 NUMBER = re.compile(r"(?<![A-Za-z_\d.])[−-]?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")
 TIMES = "CPU s"
@@ -58,16 +65,17 @@ ANY = "…"
 
 
 def _masked(text: str) -> str:
-    """The text without times and residuals."""
+    """The text without times, residuals and numbers of iterations."""
     lines, ends = [], set[int]()
     for line in text.splitlines():
-        if TIMES in line and not TIME.search(line):
+        if TIMES in line and not VARYING.search(line):
             ends = {found.end() for found in re.finditer(TIMES, line)}
         elif not line.strip():
             ends = set()
         kept = [" " * len(word[0]) if word.end() in ends else word[0] for word in re.finditer(r"\S+|\s+", line)]
         lines.append("".join(kept) if ends and TIMES not in line else line)
-    return RESIDUAL.sub("", TIME.sub("", ONE_TIME.sub("", "\n".join(lines))))
+    varying = [(RULE, "─"), (ONE_TIME, ""), (VARYING, ""), (RESIDUAL, "")]
+    return functools.reduce(lambda kept, rule: rule[0].sub(rule[1], kept), varying, "\n".join(lines))
 
 
 def _last_digit(number: str) -> float:
@@ -159,7 +167,7 @@ def test_pages_show_what_is_printed(page: Path, tmp_path: Path, monkeypatch: pyt
         ("890 ± 30", "886 ± 28", True),
         ("load 1; 0.02 CPU s", "load 1; 3\n  CPU s", True),
         ("load 1; 2 CPU s (+ 1 s to load\n kernels)", "load 1; 2 CPU s", True),
-        ("load 1; residual 2e-16", "load 1; residual 7e-12", True),
+        ("residual 2e-16, 37\n iterations", "residual 7e-12, 45 iterations", True),
         ("model  CPU s  error\nfilm    0.02    1 %", "model  CPU s  error\nfilm     1.5    1 %", True),
         ("model  CPU s  error\nfilm    0.02    1 %", "model  CPU s  error\nfilm     1.5    3 %", False),
         ("a\n…\nd", "a b c d", True),
