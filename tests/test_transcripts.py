@@ -28,12 +28,13 @@ from typer.testing import CliRunner
 from roughfilm.cli.main import app
 from roughfilm.terminal import console
 
+RUN = re.compile(r"^```(console|python)$", re.MULTILINE)
+POCKET = 'kind = "pocket"'
 PAGES = [
-    pytest.param(
-        path, id=f"{part}/{path.stem}", marks=[pytest.mark.openfoam] if 'kind = "pocket"' in path.read_text() else []
-    )
+    pytest.param(page, id=f"{page.parent.name}/{page.stem}", marks=[pytest.mark.openfoam] if POCKET in text else [])
     for part in ("start", "howto")
-    for path in sorted((ROOT / "docs" / part).glob("*.md"))
+    for page in sorted((ROOT / "docs" / part).glob("*.md"))
+    if RUN.search(text := page.read_text())
 ]
 """The pages; the advice on a pocket counts the cost of the models that run in OpenFOAM."""
 
