@@ -30,10 +30,10 @@ POINTS_PER_INCH = 72
 def readings(figure: Figure) -> list[dict[str, Any]]:
     """Return the readings of each axes of a figure that has been drawn; lengths are points from its upper left corner.
 
-    An entry has its ``box`` (left, top, width, height), its ``title``, ``x`` and ``y`` (name, unit and the names of
-    its places), and ``series``: each with a label, flat ``points`` of five numbers (two lengths, x, y, uncertainty),
-    and ``of``, the axis of the uncertainty. A map has its quantity, the numbers of its cells along both sides, and their values by rows from the
-    upper left corner, null where there is none.
+    An entry has its ``box`` (left, top, width, height), its ``title``, and ``x`` and ``y``: name, unit, scale, limits
+    and the names of its places. Its ``series`` have a label, flat ``points`` of five numbers (two lengths, x, y,
+    uncertainty) and ``of``, the axis of the uncertainty. Its ``map``, if it has one, has its quantity, the numbers of
+    its cells along both sides, and their values by rows from the upper left corner, null where there is none.
     """
     found = []
     for axes in figure.axes:
@@ -71,7 +71,8 @@ def _axis(axis: Axis, figure: Figure) -> dict[str, Any]:
     labels.append(figure.get_supxlabel() if axis is own.xaxis else figure.get_supylabel())
     name, unit = name_and_unit(next(filter(None, labels), axis.axis_name))
     places, texts = axis.get_major_locator(), axis.get_major_formatter()
-    entry: dict[str, Any] = {"name": name, "unit": unit}
+    entry: dict[str, Any] = {"name": name, "unit": unit, "scale": axis.get_scale()}
+    entry["limits"] = [_short(limit, 12) for limit in axis.get_view_interval()]
     if isinstance(places, FixedLocator) and isinstance(texts, FixedFormatter | FuncFormatter):
         names = [(float(place), texts(place, i)) for i, place in enumerate(places.locs)]
         entry["places"] = [[_short(place), text] for place, text in names if text]

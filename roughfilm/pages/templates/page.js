@@ -8,7 +8,13 @@
   tip.hidden = true;
   document.body.append(tip);
 
-  const number = (value) => String(value).replace("-", "−").replace(/e\+?(−?)-?(\d+)$/, " · 10^$1$2");
+  const raised = (digits) => digits.replace(/./g, (one) => (one === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[one]));
+
+  function number(value) {
+    const [head, power] = String(value).replace("+", "").split("e");
+    const front = head === "1" && power ? "" : head.replace("-", "−") + (power ? " · " : "");
+    return power ? `${front}10${raised(power)}` : front;
+  }
 
   // One coordinate in words, with its unit or, on an axis of names, the nearest name.
   function inWords(axis, value, uncertainty) {
@@ -56,6 +62,25 @@
     return null;
   }
 
+  const digitsOf = (step) => Math.max(0, -Math.floor(Math.log10(step)));
+
+  // About four round values of an axis between two places, which are fractions of its length, with their places.
+  function ticksOf(axis, low, high) {
+    const log = axis.scale === "log", [from, to] = log ? axis.limits.map(Math.log10) : axis.limits;
+    if (axis.places || (!log && axis.scale !== "linear")) return [];
+    const [a, b] = [from + low * (to - from), from + high * (to - from)].sort((x, y) => x - y);
+    const [first, last] = log && b - a < 2 ? [10 ** a, 10 ** b] : [a, b];
+    const rough = (last - first) / 4, power = 10 ** Math.floor(Math.log10(rough));
+    const step = (log && b - a >= 2) ? Math.ceil(rough) : power * [1, 2, 5, 10].find((one) => one * power >= rough);
+    const found = [];
+    for (let value = Math.ceil(first / step) * step; value <= last; value += step) {
+      const shown = log && b - a >= 2 ? "1e" + value : value.toFixed(Math.min(digitsOf(step), 12));
+      const place = log ? (b - a < 2 ? Math.log10(value) : value) : value;
+      found.push([(place - from) / (to - from), number(shown)]);
+    }
+    return found;
+  }
+
   function readable(svg) {
     const whole = svg.getAttribute("viewBox").split(" ").map(Number);
     let view = whole, panels = null, start = null, cursor = null;
@@ -66,16 +91,47 @@
       return svg.appendChild(mark);
     };
     const ring = draw("circle", { class: "ring" }), frame = draw("rect", { class: "frame" });
+    const ticks = svg.appendChild(document.createElementNS(svg.namespaceURI, "g"));
+    ticks.setAttribute("class", "scales");
     const read = () => (panels ??= JSON.parse(svg.querySelector("metadata.readings").textContent));
     const placeOf = (event) => new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
     const scale = () => view[2] / whole[2];
     const hide = () => { tip.hidden = true; ring.style.display = "none"; };
+    // The values along the lower and the left edge of what is seen of the panel in the middle.
+    const scales = () => {
+      ticks.replaceChildren();
+      const [x, y] = [view[0] + view[2] / 2, view[1] + view[3] / 2];
+      const inside = ({ box: [left, top, width, height] }) =>
+        x >= left && x <= left + width && y >= top && y <= top + height;
+      const panel = scale() < 1 && read().find(inside);
+      if (!panel) return;
+      const [left, top, width, height] = panel.box, size = 10 * scale();
+      const ends = [Math.max(view[0], left), Math.min(view[0] + view[2], left + width)];
+      const sides = [Math.max(view[1], top), Math.min(view[1] + view[3], top + height)];
+      const write = (x, y, words, anchor) => {
+        const text = document.createElementNS(svg.namespaceURI, "text");
+        for (const [key, value] of Object.entries({ x, y, "font-size": size, "text-anchor": anchor })) {
+          text.setAttribute(key, value);
+        }
+        text.textContent = words;
+        ticks.append(text);
+      };
+      const room = 0.04 * view[2];  // so that no number is cut at an edge
+      for (const [place, words] of ticksOf(panel.x, (ends[0] + room - left) / width, (ends[1] - room - left) / width)) {
+        write(left + place * width, sides[1] - size / 3, words, "middle");
+      }
+      const [low, high] = [1 - (sides[1] - 2 * size - top) / height, 1 - (sides[0] + size - top) / height];
+      for (const [place, words] of ticksOf(panel.y, low, high)) {
+        write(ends[0] + size / 4, top + (1 - place) * height + size / 3, words, "start");
+      }
+    };
     const zoom = (next) => {
       const size = Math.min(next[2], whole[2]), tall = (size / whole[2]) * whole[3];
       const within = (low, least, room) => Math.max(least, Math.min(low, least + room));
       view = [within(next[0], whole[0], whole[2] - size), within(next[1], whole[1], whole[3] - tall), size, tall];
       svg.setAttribute("viewBox", view.join(" "));
       svg.classList.toggle("zoomed", size < whole[2]);
+      scales();
     };
     const mark = (found, x, y) => {
       ring.style.display = found.away === undefined ? "none" : "";
@@ -143,5 +199,45 @@
     svg.parentElement.classList.add("read");
   }
 
+  const bytesOf = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+
+  // The chunk of a PNG file that holds its scene, in base64.
+  function sceneOf(image) {
+    const bytes = bytesOf(image.src.split(",")[1]), view = new DataView(bytes.buffer);
+    for (let at = 8; at < bytes.length; at += 12 + view.getUint32(at)) {
+      const size = view.getUint32(at);
+      if (String.fromCharCode(...bytes.subarray(at + 4, at + 8)) !== "scEn") continue;
+      let text = "";
+      for (let i = at + 8; i < at + 8 + size; i += 8192) {
+        text += String.fromCharCode(...bytes.subarray(i, Math.min(i + 8192, at + 8 + size)));
+      }
+      return btoa(text);
+    }
+    return "";
+  }
+
+  async function viewerPage(scene) {
+    const packed = new Blob([bytesOf(document.getElementById("viewer").textContent)]).stream();
+    const page = await new Response(packed.pipeThrough(new DecompressionStream("gzip"))).text();
+    const load = `function loadDataSet() { OfflineLocalView.load(document.body, { base64Str: "${scene}" }); }`;
+    return page.replace("</head>", () => `<script>${load}<\/script></head>`);
+  }
+
+  function turning(image) {
+    const button = document.createElement("button");
+    button.className = "turn";
+    button.textContent = "turn it";
+    button.addEventListener("click", async () => {
+      const frame = document.createElement("iframe");
+      frame.title = image.alt;
+      frame.srcdoc = await viewerPage(sceneOf(image));
+      image.after(frame);
+      image.classList.add("turned");
+      button.remove();
+    });
+    image.after(button);
+  }
+
+  document.querySelectorAll('img[src^="data:image/png;scene"]').forEach(turning);
   document.querySelectorAll("svg:has(> metadata.readings)").forEach(readable);
 })();
