@@ -153,6 +153,9 @@ def _hovered(page, figure):
 @pytest.mark.parametrize("kind", ["surface", "contact", "leakage"])
 def test_surfaces_turn(kind, visit):
     page = visit(kind)
+    missing = page.get_by_text("No picture: ")
+    if missing.count():
+        pytest.skip(missing.first.inner_text())
     page.locator(".turn").first.click()
     frame = page.locator("iframe")
     frame.scroll_into_view_if_needed()
