@@ -12,6 +12,7 @@ from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.load_series import MAX_BINS, PressureDensity
 from roughfilm.contact.mechanics.store import Row
 from roughfilm.figures.base import new_figure, size_of, surface_map, svg
+from roughfilm.figures.ticks import plain_logarithmic
 
 AREA, PLASTIC, BEFORE, UNLOADED, PLANE = "#2166ac", "#b2182b", "0.6", "#e08214", "black"
 PRESSURES = mpl.colormaps["inferno"].with_extremes(bad="#dfe4ea")
@@ -28,7 +29,7 @@ def areas(rows: Sequence[Row]) -> str:
         _line(axes, loads, np.where(plastic > 0, plastic, np.nan), PLASTIC, "plastic")
     figure.legend(loc="outside upper center", ncols=2)
     axes.set(xscale="log", yscale="log", xlabel="load, MPa", ylabel="fraction of the nominal area, %")
-    _plain(axes)
+    plain_logarithmic(axes.xaxis, axes.yaxis)
     return svg(figure)
 
 
@@ -40,7 +41,7 @@ def mean_gaps(rows: Sequence[Row]) -> str:
     figure, axes = new_figure((5.4, 4.2))
     _line(axes, _loads(known), [1e6 * (row.mean_gap or 0.0) for row in known], AREA, "mean gap")
     axes.set(xscale="log", ylim=(0, None), xlabel="load, MPa", ylabel="mean gap, µm")
-    axes.xaxis.set_major_formatter("{x:g}")
+    plain_logarithmic(axes.xaxis)
     return svg(figure)
 
 
@@ -48,7 +49,7 @@ def maps(contact: Contact) -> str:
     """Pressure and gap over the surface."""
     width, height = size_of(contact)
     figure, panels = new_figure((11, min(5.2, 1.0 + 4.0 * height / width)), 1, 2)
-    figure.set_layout_engine("compressed")
+    figure.set_layout_engine("compressed", w_pad=0.12)
     pressure = np.where(contact.in_contact, contact.pressure, np.nan) / 1e6
     image = surface_map(panels[0], pressure, size_of(contact), cmap=PRESSURES, vmin=0, vmax=_top(contact) / 1e6)
     figure.colorbar(image, ax=panels[0], label="pressure, MPa (grey: no contact)")
@@ -121,12 +122,6 @@ def section_row(contact: Contact) -> int:
 
 def _loads(rows: Sequence[Row]) -> list[float]:
     return [row.load / 1e6 for row in rows]
-
-
-def _plain(axes: Axes) -> None:
-    """Write the numbers at logarithmic axes without powers of ten."""
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter("{x:g}")
 
 
 def _line(axes: Axes, x: Sequence[float], y: Any, colour: str, label: str) -> None:

@@ -8,6 +8,7 @@ from matplotlib.ticker import LogLocator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure, surface_map, svg
+from roughfilm.figures.ticks import plain_logarithmic
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flux import flux
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, relative_row, relative_rows
@@ -55,7 +56,7 @@ def curves(table: FactorTable) -> str:
             axes.yaxis.set_major_formatter("{x:g}")
             axes.set_ylim(bottom=min(-0.2, 1.2 * rows[:, [index for index, _ in drawn]].min()))
         axes.xaxis.set_major_locator(LogLocator(numticks=5))
-        axes.xaxis.set_major_formatter("{x:g}")
+        plain_logarithmic(axes.xaxis)
         axes.set_title(title, fontsize=10)
         axes.set(xlabel="mean gap ĥ, µm", ylabel="relative to a smooth film")
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), fontsize=9)
@@ -88,7 +89,7 @@ def maps(gap: Array, spacing: tuple[float, float], correctors: Array, sealed: tu
     """Maps of the gap, and of the flow under a pressure gradient along x and along y over that of a smooth film."""
     width, height = (count * length for count, length in zip(gap.shape, spacing, strict=True))
     figure, panels = new_figure((11.4, min(6.0, 1.6 + 3.3 * height / width)), 1, 3)
-    figure.set_layout_engine("compressed")
+    figure.set_layout_engine("compressed", w_pad=0.12)
     shown = np.where(gap > 0, gap, np.nan) * 1e6
     image = surface_map(panels[0], shown, (width, height), cmap=GAPS, vmin=0)
     panels[0].set_title("gap", fontsize=10)

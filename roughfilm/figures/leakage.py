@@ -11,6 +11,7 @@ from matplotlib.patches import Patch
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.figures.base import new_figure, size_of, surface_map, svg
+from roughfilm.figures.ticks import plain_logarithmic
 from roughfilm.rom.homogenization.flux import flux
 from roughfilm.rom.seal.at_load import SealAtLoad
 from roughfilm.rom.seal.leakage.direct import direct_flow
@@ -126,6 +127,7 @@ def leakages(
         xlabel="load, MPa (dotted: sealed beyond)",
         ylabel=f"leakage per width, {scale.unit}",
     )
+    plain_logarithmic(axes.xaxis)
     figure.legend(fontsize=8, loc="outside upper center", ncols=3)
     return svg(figure)
 

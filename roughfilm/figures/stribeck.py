@@ -8,10 +8,10 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure
+from roughfilm.figures.ticks import plain_logarithmic
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve
 from roughfilm.words.stribeck import SpeedScale
@@ -84,11 +84,9 @@ def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | 
     if min(swept) > 0 and max(swept) > LOGARITHMIC_RATIO * min(swept):
         for axes in (friction, gap, share):
             axes.set_xscale("log")
-            axes.xaxis.set_major_formatter("{x:g}")
+            plain_logarithmic(axes.xaxis)
     friction.set_yscale("log")
-    for formatted in (friction.yaxis.set_major_formatter, friction.yaxis.set_minor_formatter):
-        formatted("{x:g}")
-    friction.yaxis.set_minor_locator(LogLocator(subs=(2, 5)))
+    plain_logarithmic(friction.yaxis)
     if min(swept) <= own <= max(swept):
         for axes in (friction, gap, share):
             axes.axvline(own * scale.factor, color="0.35", linewidth=1, linestyle="--", zorder=0)

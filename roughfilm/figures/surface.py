@@ -14,6 +14,7 @@ from roughfilm.contact.parameters.spectrum import power_spectrum, radial_power
 from roughfilm.contact.preparation.prepare import Prepared
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.figures.base import new_figure, surface_map, svg
+from roughfilm.figures.ticks import plain_logarithmic
 
 COLOURS = mpl.colormaps["RdBu_r"].with_extremes(bad="#444444")
 BEFORE, AFTER = "#e08214", "#2166ac"
@@ -21,26 +22,27 @@ BEFORE, AFTER = "#e08214", "#2166ac"
 
 def height_maps(prepared: Prepared) -> str:
     """The measured surface with its invalid points and window, and the prepared one, in the same colours."""
-    figure, panels = new_figure((11, _height(prepared.measured, 4.4)), 1, 2)
+    drawn = {"measured, form removed": prepared.measured, "prepared": prepared.surface}
+    if np.array_equal(prepared.measured.heights, prepared.surface.heights):
+        drawn = {"measured; preparation changed no height": prepared.measured}
+    figure, panels = new_figure((11, _height(prepared.measured, 4.4)), 1, len(drawn), squeeze=False)
     figure.set_layout_engine("compressed")
     level, limit = _level(prepared), _limit(prepared)
-    for axes, surface, title in zip(
-        panels, (prepared.measured, prepared.surface), ("measured, form removed", "prepared"), strict=True
-    ):
+    for axes, (title, surface) in zip(panels[0], drawn.items(), strict=True):
         heights = np.where(surface.invalid, np.nan, surface.heights)
         image = _height_map(axes, surface, heights - level, limit)
         axes.set_title(title, fontsize=10)
     window = prepared.record["window"]
     dx, dy = (step * 1e6 for step in prepared.measured.spacing)
     (i, j), (nx, ny) = window["start"], window["pixels"]
-    panels[0].add_patch(Rectangle((i * dx, j * dy), nx * dx, ny * dy, fill=False, edgecolor="black", linewidth=1.5))
-    figure.colorbar(image, ax=panels, label="height, µm (dark: invalid)")
+    panels[0, 0].add_patch(Rectangle((i * dx, j * dy), nx * dx, ny * dy, fill=False, edgecolor="black", linewidth=1.5))
+    figure.colorbar(image, ax=panels[0].tolist(), label="height, µm (dark: invalid)")
     return svg(figure)
 
 
 def joints(prepared: Prepared) -> str:
     """One and a quarter cells each way, after each step that changes them; black squares where the cells meet."""
-    stages = {"as measured": prepared.cell}
+    stages = {"the cell": prepared.cell}
     for title, surface in (("edges joined", prepared.joined), ("smoothed", prepared.surface)):
         if not np.array_equal(surface.heights, [*stages.values()][-1].heights):
             stages[title] = surface
@@ -89,7 +91,7 @@ def power_spectra(prepared: Prepared) -> str:
         axes.loglog(wavelength[drawn] * 1e6, octaves[drawn] * 1e12, color=colour, label=label, linewidth=line)
     axes.invert_xaxis()
     axes.set(xlabel="wavelength, µm", ylabel="mean square height per octave, µm²")
-    axes.xaxis.set_major_formatter("{x:g}")
+    plain_logarithmic(axes.xaxis)
     figure.legend(loc="outside upper center", ncols=2)
     return svg(figure)
 

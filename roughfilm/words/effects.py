@@ -8,7 +8,7 @@ from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.words.numbers import percent, with_error
 from roughfilm.words.scales import scale_for
 
-ROUNDING = 1e-9
+ROUNDING = 1e-7
 """Numbers below this, in the units of the tables, are written as 0."""
 
 MAX_CHANGE = 10.0
