@@ -91,10 +91,10 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
                 LABEL_OFFSETS[number % len(LABEL_OFFSETS)],
                 style.colour,
             )
-    own = {(point.model, point.resolution): point for point in chart.points}
+    drawn = {(point.model, point.resolution): point for point in chart.points}
     axes.plot(
         [point.cpu_s for point in chart.front],
-        [_drawn(chart, own[point.model, point.resolution]) for point in chart.front],
+        [_drawn(chart, drawn[point.model, point.resolution]) for point in chart.front],
         color="black",
         linewidth=1.2,
         label="Pareto front",
