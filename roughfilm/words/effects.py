@@ -63,7 +63,9 @@ def cell(amount: Amount | None, how: Shown, *, sign: bool = False) -> str:
     if max(abs(amount.value), amount.uncertainty) * how.factor < ROUNDING:
         return "0"
     text = with_error(how.factor * amount.value, how.factor * amount.uncertainty)
-    return f"+{text}" if sign and amount.value > 0 and not text.startswith("(") else text.replace("-", "−")
+    zero = not text.partition(" ")[0].strip("-0.")
+    signed = sign and amount.value > 0 and not zero and not text.startswith("(")
+    return f"{'+' if signed else ''}{text}".replace("-", "−")
 
 
 def sentences(study: EffectStudy, name: str, inertia: Amount | None) -> list[str]:
