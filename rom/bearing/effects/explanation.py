@@ -64,7 +64,8 @@ def _cavitation(numbers: Numbers) -> str:
     starved = (
         "; without cavitation the starved inlet is treated as flooded" if numbers.get("starvation", 1.0) < 1 else ""
     )
-    return f"mass-conserving; ambient minus cavitation pressure over 6ηuL/h² = {number:.2g}: cavitation is {expected}{starved}"
+    reserve = f"ambient minus cavitation pressure over 6ηuL/h² = {number:.2g}"
+    return f"mass-conserving; {reserve}: cavitation is {expected}{starved}"
 
 
 def _pressure(numbers: Numbers) -> str:
@@ -94,7 +95,8 @@ def _inertia(numbers: Numbers) -> str:
     pocket = ", and fully in one pocket" if "pocket_depth_ratio" in numbers else ""
     return (
         f"Reynolds number Re = {numbers['reynolds_number']:.2g}, reduced one Re·h/l = "
-        f"{numbers['reduced_reynolds_number']:.2g}: to first order over the whole film{pocket}; not included in the load of the film"
+        f"{numbers['reduced_reynolds_number']:.2g}: to first order over the whole film{pocket}; "
+        "not included in the load of the film"
     )
 
 
