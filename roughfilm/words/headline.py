@@ -35,9 +35,7 @@ class Headline:
     sentences: tuple[str, ...]
 
 
-def headline(
-    scene: Scene, result: Result, models: Sequence[Model], scales: Scales, origin: str = STATED
-) -> Headline:
+def headline(scene: Scene, result: Result, models: Sequence[Model], scales: Scales, origin: str = STATED) -> Headline:
     """The answer of a result to what its scene asks: the film under a load, the leakage of a seal, else the load.
 
     Parameters
@@ -83,7 +81,7 @@ def whole(name: str, result: Result) -> str:
 def _included(scene: Scene, model: Model, models: Sequence[Model]) -> str:
     """The sentence on the model and the effects that it keeps."""
     rank = ", the most complete model for this scene" if not _missing(scene, model, models) else ""
-    kept = f", which includes {_listed(sorted(model.keeps))}" if model.keeps else f", {model.summary}"
+    kept = f", which includes {listed(sorted(model.keeps))}" if model.keeps else f", {model.summary}"
     return f"By {model.name}{rank}{kept}."
 
 
@@ -114,7 +112,7 @@ def left_out(scene: Scene, model: Model, models: Sequence[Model]) -> str:
     omission = kind.omitted(scene, next(iter(kind.compared)))
     return " ".join(
         [
-            *([f"It leaves out {_listed(missing)}."] if missing else []),
+            *([f"It leaves out {listed(missing)}."] if missing else []),
             *partly,
             *([f"{omission.reason[:1].upper()}{omission.reason[1:]}."] if omission and omission.reason else []),
         ]
@@ -127,6 +125,11 @@ def _missing(scene: Scene, model: Model, models: Sequence[Model]) -> list[str]:
     return sorted(frozenset[str]().union(*(one.keeps for one in applying)) - model.keeps)
 
 
-def _listed(names: Sequence[str]) -> str:
+def listed(names: Sequence[str]) -> str:
+    """The names in a sentence.
+
+    >>> listed(["load", "friction", "film"])
+    'load, friction and film'
+    """
     *first, last = names
     return f"{', '.join(first)} and {last}" if first else last

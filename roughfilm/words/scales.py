@@ -15,7 +15,7 @@ from roughfilm.words.units import scale_of
 DIGITS = 5
 """Digits of a value whose uncertainty is below the last of them."""
 
-NEGLIGIBLE, NEGLIGIBLE_PLAIN = 1e-7, 1e-9
+NEGLIGIBLE, NEGLIGIBLE_PLAIN = 1e-6, 1e-9
 """Magnitude over the largest one of its unit, and magnitude of a plain number, below which a number is written as 0."""
 
 PERCENT = (
@@ -27,6 +27,9 @@ PERCENT = (
     "plastic_fraction",
 )
 """Plain numbers that are shown in per cent."""
+
+MICROMETRES = (1e-8, 1e-3)
+"""Lengths that are shown in µm, m."""
 
 PLACES = ("x", "y", "position", "film_min_x", "film_min_y")
 """Lengths that are positions; each has a unit of its own."""
@@ -89,7 +92,8 @@ class Scale:
 def scale_for(unit: str, largest: float) -> Scale:
     """The largest unit that is not larger than a magnitude in an SI unit; plain numbers near 0 have none."""
     negligible = max(NEGLIGIBLE * largest, NEGLIGIBLE_PLAIN if unit == "1" else 0.0)
-    factor, name = scale_of(unit, largest if largest > negligible else 0.0)
+    size = largest if largest > negligible else 0.0
+    factor, name = (1e-6, "µm") if unit == "m" and MICROMETRES[0] <= size < MICROMETRES[1] else scale_of(unit, size)
     return Scale(factor=factor, unit=POWERS.get(name, name), negligible=negligible)
 
 
