@@ -45,6 +45,7 @@ class View:
     cards : quantities at the top of a comparison beside the one that the scene asks for, those of the whole first.
     rows : quantities in the table of the models.
     plots : plots(scene, results, reference), figures of the kind by name, with the fields of the model ``reference``.
+    line : name of the figure with the pressure along the film; empty if there is none.
     groups : groups(given), masks of the cases of a sweep that share a marker, by name.
     drawing : module that draws a result which resolves the film, in space; empty where there is none.
     maps : maps(sweep, setting, reference, quantity), errors over the varied entries, SVG; None where there is no map.
@@ -60,6 +61,7 @@ class View:
     rows: Sequence[str]
     plots: Callable[[Any, Mapping[str, Result], str], Mapping[str, Plot]]
     groups: Callable[[Columns], Mapping[str, NDArray[Any]]]
+    line: str = ""
     drawing: str = ""
     maps: Callable[[Sweep, str, Reference, str], str] | None = None
     grids: str = "grid convergence index"

@@ -49,13 +49,12 @@ def headline(scene: Scene, result: Result, models: Sequence[Model], scales: Scal
     name = asked(result)
     model = next(one for one in models if one.name == result.model)
     sealed = result.quantities.get("sealed")
+    included, *rest = model_sentences(scene, model, models)
     return Headline(
         quantity=name,
         title=kind_of(result).reported[name],
         value="none: no open path" if sealed and sealed.value else scales.text(name, result.quantities[name]),
-        sentences=tuple(
-            filter(None, [_included(scene, model, models), sureness(result, origin), left_out(scene, model, models)])
-        ),
+        sentences=(included, sureness(result, origin), *rest),
     )
 
 
@@ -76,6 +75,11 @@ def whole(name: str, result: Result) -> str:
     """
     base = name.removesuffix("_per_width").removesuffix("_plus")
     return next(one for one in (f"bearing_{base}", base, f"{base}_per_area", name) if one in result.quantities)
+
+
+def model_sentences(scene: Scene, model: Model, models: Sequence[Model]) -> tuple[str, ...]:
+    """The sentences on a model, on the effects that it keeps, and on those that it leaves out, if there are any."""
+    return tuple(filter(None, (_included(scene, model, models), left_out(scene, model, models))))
 
 
 def _included(scene: Scene, model: Model, models: Sequence[Model]) -> str:

@@ -80,6 +80,10 @@ class Scale:
         times = "× " if self.unit.startswith("10") else ""
         return f"{f'({number})' if times and '±' in number else number} {times}{self.unit}".strip()
 
+    def values(self, values: Array) -> Array:
+        """Values in the SI unit as numbers in this one; those near 0 are 0."""
+        return np.where(np.abs(values) <= self.negligible, 0.0, values) / self.factor
+
     def of(self, quantity: Quantity) -> str:
         """A quantity with its uncertainty, which is unknown if it is None, without the unit."""
         return self.number(quantity.value, math.inf if quantity.uncertainty is None else quantity.uncertainty)

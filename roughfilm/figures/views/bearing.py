@@ -86,32 +86,33 @@ def over(results: Mapping[str, Result], reference: str) -> Plot:
     unequal = {name: one for name, one in found.items() if one.drawn}
     rows = 1 if len(others) == 1 else len(unequal) * -(-len(others) // columns)
     figure = Figure(figsize=(10, 3.4 + 2.1 * rows), layout="constrained")
-    upper, lower = figure.subfigures(2, 1, height_ratios=(3.4, max(2.1 * rows, 1e-3))) if others else (figure, None)
+    spaces = figure.add_gridspec(2 if rows else 1, 1, height_ratios=(3.4, 2.1 * rows)[: 2 if rows else 1])
     x, y = place[0] * factor, place[1] * 1e3
-    for axes, (name, (title, scale, _, colours)) in zip(upper.subplots(1, 2), fields.items(), strict=True):
+    for axes, (name, (title, scale, _, colours)) in zip(
+        spaces[0].subgridspec(1, 2).subplots(), fields.items(), strict=True
+    ):
         values = result.fields[name].values / scale.factor
         # a film that is whole everywhere is to look so
         limits = {"vmin": min(values.min(), 0.9), "vmax": max(values.max(), 1.0)} if name == "density_ratio" else {}
         image = _map(axes, x, y, values, cmap=colours, **limits)
         axes.set_title(f"{title} by {shown}", fontsize=9)
         axes.set(xlabel=label, ylabel="across, mm")
-        upper.colorbar(image, ax=axes, label=scale.label(title))
-    if lower is not None:
-        _difference_maps(lower, unequal, fields, others, (x, y), label, (rows, columns))
+        figure.colorbar(image, ax=axes, label=scale.label(title))
+    if rows:
+        panels = spaces[1].subgridspec(rows, columns).subplots(squeeze=False, sharex=True, sharey=True)
+        _difference_maps(panels, unequal, fields, others, (x, y), label)
     return Plot(svg=svg(figure), words=tuple(words for one in found.values() for words in one.words))
 
 
 def _difference_maps(
-    figure: Any,
+    panels: Any,
     found: Mapping[str, Differences],
     fields: Mapping[str, Any],
     others: Sequence[str],
     place: tuple[Array, Array],
     label: str,
-    shape: tuple[int, int],
 ) -> None:
     """Draw the differences of the other models: pressure above density, or beside it if there is one other model."""
-    panels = figure.subplots(*shape, squeeze=False, sharex=True, sharey=True)
     for axes in panels.flat:
         axes.set_axis_off()
     for row, (name, one) in enumerate(found.items()):
@@ -122,10 +123,11 @@ def _difference_maps(
             axes.set_axis_on()
             image = _map(axes, *place, one.drawn[model], **one.colours)
             axes.set_title(model, fontsize=9)
+            axes.set_xlabel(label, fontsize=8)
+            axes.set_ylabel("across, mm", fontsize=8)
+            axes.label_outer()
         title, scale = fields[name][:2]
-        figure.colorbar(image, ax=line, label=scale.label(f"difference\nin {title}"), shrink=0.95)
-    figure.supxlabel(label, fontsize=9)
-    figure.supylabel("across, mm", fontsize=9)
+        axes.figure.colorbar(image, ax=line, label=scale.label(f"difference\nin {title}"), shrink=0.95)
 
 
 def _map(axes: Axes, x: Array, y: Array, values: Array, **look: Any) -> Any:
@@ -185,7 +187,8 @@ VIEW = View(
         "rupture",
     ),
     plots=plots,
+    line="along",
     groups=groups_by("shape"),
     errors="of the load and of the friction on the sliding wall",
-    ordering="θ of the inlet, ϑ at 6ηuL/h² and B/L",
+    ordering="the relative density θ of the inlet, the compression ϑ at the pressure 6ηuL/h² and width over length B/L",
 )

@@ -106,5 +106,5 @@ VIEW = View(
     groups=groups_by("rough_surface"),
     grids="last step between grids",
     errors="of the contact area and of the mean gap",
-    ordering="P/(E* g'), H/(E* g') and Nayak's α",
+    ordering="mean pressure P/(E* g') and hardness H/(E* g') over modulus and rms slope, and Nayak's parameter α",
 )

@@ -203,11 +203,13 @@ VIEW = View(
         "backflow",
     ),
     plots=plots,
+    line="pressure",
     drawing="roughfilm.figures.streamlines",
     groups=groups,
     maps=error_maps,
     errors="of the load and of the friction on the sliding wall",
     left_out=" Cases whose load is under a twentieth of the greatest pressure are left out here and in the table "
     "above: their load is the difference of two larger ones.",
-    ordering="Re, depth d/Ly, 2d/w and the slope of the steeper side",
+    ordering="the Reynolds number Re, depth over film d/Ly, twice the depth over the width 2d/w and the slope of the "
+    "steeper side",
 )

@@ -26,9 +26,9 @@ STYLES = {
 CONTACT = "#b9c2cc"
 
 COEFFICIENTS = {
-    "A11": "flow along x, A11",
-    "A22": "flow along y, A22",
-    "B1": "flow by sliding, B1",
+    "A11": "flow along x (A11)",
+    "A22": "flow along y (A22)",
+    "B1": "flow by sliding (B1)",
     "friction": "friction",
 }
 """The factors that are drawn, with their names."""
@@ -52,6 +52,7 @@ def factors(results: Mapping[str, Result]) -> str:
             )
         axes.set_yticks(range(len(results)), list(results))
         axes.xaxis.set_major_locator(MaxNLocator(4))
+        axes.ticklabel_format(axis="x", useOffset=False)
         axes.set(ylim=(-0.6, len(results) - 0.4))
         axes.set_xlabel(COEFFICIENTS[name], fontsize=9)
         axes.margins(x=0.15)
@@ -138,7 +139,7 @@ def _thinned_to(result: Result, other: Result) -> Array:
 
 def plots(scene: RoughGap, results: Mapping[str, Result], reference: str) -> dict[str, Plot]:
     """The figures of a comparison: sections where a model resolves the film, maps where the gap varies both ways."""
-    shown = {"factors": Plot(svg=factors(results))}
+    shown = {"factors": Plot(svg=factors(results))} if len(results) > 1 else {}
     resolved = {name: result for name, result in results.items() if "cell_velocity" in result.fields}
     if resolved:
         shown["sections"] = sections(resolved, reference)
@@ -159,6 +160,6 @@ VIEW = View(
     drawing="roughfilm.figures.gap_view",
     groups=groups_by("rough_surface"),
     errors="of the flow along x and of the flow along y",
-    ordering="slope g', Sq/h̄ and Re",
+    ordering="the rms slope g', rms height over mean gap Sq/h̄ and the Reynolds number Re",
     left_out=" Cases that are almost closed are left out.",
 )

@@ -107,6 +107,6 @@ VIEW = View(
     groups=groups_by("rough_surface"),
     grids="last step between grids",
     errors="of the leakage and of the contact area",
-    ordering="P/(E* g') and Nayak's α",
+    ordering="mean pressure over modulus and rms slope P/(E* g') and Nayak's parameter α",
     left_out=" Cases that are sealed or almost sealed are left out.",
 )
