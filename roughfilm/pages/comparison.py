@@ -175,16 +175,17 @@ def _rows(report: Report, scales: Scales) -> list[tuple[str, list[tuple[str, str
 
 
 def _error_rows(report: Report) -> list[tuple[str, list[tuple[str, str]]]]:
-    """The rows of the errors in the compared quantities, by every model: difference and uncertainty of the best one."""
+    """The rows of the errors in the compared quantities, by every model: difference and error of the best one."""
     rows = []
     for name in report.kind.shared(report.results[report.best]):
         cells = []
         for result in report.results.values():
+            error = stated_errors(result).get(name) if name in result.quantities else None
             if result.model == report.best:
                 own = relative_uncertainty(result, name)
-                cells.append(("", "unknown" if own is None else bound(own)))
+                numerical = "unknown" if own is None else bound(own)
+                cells.append(("", numerical if error is None else error.amount))
                 continue
-            error = stated_errors(result).get(name) if name in result.quantities else None
             value, _, bar = ("–" if error is None else error.amount).partition(" ± ")
             cells.append((value, bar))
         rows.append((report.kind.compared[name], cells))

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import MAX_PIXELS, new_figure, svg
@@ -85,7 +86,7 @@ def over(results: Mapping[str, Result], reference: str) -> Plot:
     columns = max(2, min(len(others), MAX_COLUMNS))
     unequal = {name: one for name, one in found.items() if one.drawn}
     rows = 1 if len(others) == 1 else len(unequal) * -(-len(others) // columns)
-    figure = Figure(figsize=(10, 3.4 + 2.1 * rows), layout="constrained")
+    figure = Figure(figsize=(10, 3.4 + 2.1 * rows), layout=ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.08))
     spaces = figure.add_gridspec(2 if rows else 1, 1, height_ratios=(3.4, 2.1 * rows)[: 2 if rows else 1])
     x, y = place[0] * factor, place[1] * 1e3
     for axes, (name, (title, scale, _, colours)) in zip(

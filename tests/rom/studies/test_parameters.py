@@ -21,7 +21,7 @@ def test_a_multiple_of_another_length_says_so():
 def test_values_in_several_units_are_given_in_the_first_one():
     table = {"depth": Column(values=[5e-6, 1e-5], unit="m")}
     (depth,) = parameters({"depth": ["5 um", "0.01 mm"]}, table, [0, 1])
-    assert depth.unit == "um"
+    assert depth.unit == "µm"
     assert depth.values == pytest.approx([5, 10])
 
 
