@@ -68,7 +68,7 @@ class Scale:
         bar = None if uncertainty is None else uncertainty / self.factor
         if bar is not None and bar < 10.0**-DIGITS * abs(value):
             text = f"{value:.{DIGITS}g}"
-        elif bar is not None and bar <= self.negligible / self.factor:
+        elif value == 0.0 and bar is not None and bar <= self.negligible / self.factor:
             text = "0"
         else:
             text = with_error(value, math.inf if bar is not None and math.isnan(bar) else bar)

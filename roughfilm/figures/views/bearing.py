@@ -89,9 +89,8 @@ def over(results: Mapping[str, Result], reference: str) -> Plot:
     figure = Figure(figsize=(10, 3.4 + 2.1 * rows), layout=ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.08))
     spaces = figure.add_gridspec(2 if rows else 1, 1, height_ratios=(3.4, 2.1 * rows)[: 2 if rows else 1])
     x, y = place[0] * factor, place[1] * 1e3
-    for axes, (name, (title, scale, _, colours)) in zip(
-        spaces[0].subgridspec(1, 2).subplots(), fields.items(), strict=True
-    ):
+    upper: Any = spaces[0].subgridspec(1, 2).subplots()
+    for axes, (name, (title, scale, _, colours)) in zip(upper, fields.items(), strict=True):
         values = result.fields[name].values / scale.factor
         # a film that is whole everywhere is to look so
         limits = {"vmin": min(values.min(), 0.9), "vmax": max(values.max(), 1.0)} if name == "density_ratio" else {}

@@ -36,6 +36,8 @@ def test_the_unit_of_a_page_is_one_that_engineers_use(unit, largest, shown):
         (800.0, 1e-7, "0.8"),
         (-50.0, math.inf, "−0.05 ± ?"),
         (1e-12, 0.0, "0"),
+        (1e-12, 1e-6, "0"),
+        (0.05, 2e-6, "0.000050000 ± 0.000000002"),
         (1e-12, 2.0, "0.000 ± 0.002"),
         (math.nan, 1.0, "–"),
     ],
