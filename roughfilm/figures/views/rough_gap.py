@@ -54,9 +54,8 @@ def factors(results: Mapping[str, Result]) -> str:
         axes.xaxis.set_major_locator(MaxNLocator(4))
         axes.ticklabel_format(axis="x", useOffset=False)
         axes.set(ylim=(-0.6, len(results) - 0.4))
-        axes.set_xlabel(COEFFICIENTS[name], fontsize=9)
+        axes.set_xlabel(f"{COEFFICIENTS[name]}\nover that of a smooth gap", fontsize=9)
         axes.margins(x=0.15)
-    figure.supxlabel("over that of a smooth gap as thick as the mean gap", fontsize=9)
     return svg(figure)
 
 
