@@ -67,7 +67,7 @@ def along(scene: Bearing, results: Mapping[str, Result], reference: str) -> str:
 def over(results: Mapping[str, Result], reference: str) -> Plot:
     """Pressure and density over the film by the reference model, and the differences of the others that keep its width.
 
-    The last line of each is the scale of its colours.
+    Differences in one quantity have the same colours.
     """
     planes = {name: result for name, result in results.items() if result.fields["pressure"].values.shape[1] > 1}
     shown = reference if reference in planes else [*planes][-1]
