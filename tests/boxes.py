@@ -49,8 +49,8 @@ def overlaps(figure: Figure) -> list[str]:
 
 def boxes_of(figure, renderer):
     """Every box of a figure that has been drawn."""
-    for text in (*figure.texts, figure._suptitle, figure._supxlabel, figure._supylabel):
-        if text is not None and _shows(text):
+    for text in figure.texts:
+        if _shows(text):
             yield Box("text", text.get_text(), figure, text.get_window_extent(renderer))
     for legend in figure.legends:
         yield Box("legend", "of the figure", figure, legend.get_window_extent(renderer))

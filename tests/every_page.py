@@ -26,7 +26,7 @@ kind = "pocket"
 length = "1 mm"
 film = "30 um"
 width = "0.3 mm"
-depth = ["10 um", "15 um", "20 um"]
+depth = ["10 um", "20 um"]
 profile = "cylindrical"
 [lubricant]
 viscosity = "0.01 Pa*s"
@@ -134,13 +134,13 @@ def written(command: str, scene: Path, *options: object) -> Callable[[Path], Pat
 KINDS: dict[str, Callable[[Path], Path]] = {
     "surface": reported("surface"),
     "contact": reported("contact", *STEEL),
-    "factors": reported("factors", "--tolerance", 0.05, "--out", "factors.h5"),
+    "factors": reported("factors", "--tolerance", 0.2, "--out", "factors.h5"),
     "leakage": written("leakage", Path("seal.toml")),
     "stribeck": written(
         "stribeck",
         SCENES / "rough_washer.toml",
         *changes(*WASHER),
-        *("--resolution", 16, "--loads", "1MPa,2MPa", "--speeds", "0,20rpm,80rpm,500rpm"),
+        *("--resolution", 16, "--loads", "1MPa,2MPa", "--speeds", "20rpm,500rpm"),
     ),
     "effects": written("effects", SCENES / "pad.toml", *changes(*PAD), "--resolution", 32),
     **{kind: partial(comparison, kind) for kind in SCENES_COMPARED},

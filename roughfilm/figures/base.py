@@ -95,8 +95,8 @@ def speed_against_accuracy(
         lowest = min((drawn(p.error[quantity]) for p in known), default=None)
         if lowest is not None:
             axes.set_ylim(bottom=lowest / 2)
-        for axis in (axes.xaxis, axes.yaxis):
-            _whole_decades(axis)
+            for axis in (axes.xaxis, axes.yaxis):
+                _whole_decades(axis)
     _legend_above(figure)
     return figure
 
