@@ -24,7 +24,7 @@ class Grids:
     close: int
 
 
-USUAL = Grids(wide=160, close=384)
+USUAL = Grids(wide=160, close=320)
 THOROUGH = Grids(wide=320, close=640)
 
 

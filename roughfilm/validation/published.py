@@ -86,12 +86,35 @@ class Study:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Curve:
+    """A published curve and ours.
+
+    Attributes
+    ----------
+    title, abscissa, ordinate : labels, with units.
+    x, ours : our points.
+    published_x, published : the published points.
+    logarithmic : whether the abscissa is.
+    """
+
+    title: str
+    abscissa: str
+    ordinate: str
+    x: tuple[float, ...]
+    ours: tuple[float, ...]
+    published_x: tuple[float, ...]
+    published: tuple[float, ...]
+    logarithmic: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
 class Answer:
-    """The rows of a source, the sentences that they lead to, and the studies behind the sentences."""
+    """The rows of a source, with sentences and studies that explain them, and curves that replace their figure."""
 
     rows: tuple[Row, ...]
     remarks: tuple[str, ...] = ()
     studies: tuple[Study, ...] = ()
+    curves: tuple[Curve, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)

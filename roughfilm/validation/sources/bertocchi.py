@@ -12,7 +12,7 @@ from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.validation.finite_volumes import FinitePad, centre_line
 from roughfilm.validation.pads import pocketed_pad
-from roughfilm.validation.published import Answer, Row, Source, Study
+from roughfilm.validation.published import Answer, Curve, Row, Source, Study
 from roughfilm.validation.reading import published
 
 AMBIENT = 1e5
@@ -91,7 +91,10 @@ def answer(thorough: bool, progress: Progress) -> Answer:
     converged = float(narrow[GRIDS[-1]])
     remarks = _remarks(rows, curves, converged, volumes, varied)
     return Answer(
-        rows=tuple(rows), remarks=remarks, studies=(_grids(narrow), _volumes(studied, volumes), _ambiguities(varied))
+        rows=tuple(rows),
+        remarks=remarks,
+        studies=(_grids(narrow), _volumes(studied, volumes), _ambiguities(varied)),
+        curves=tuple(_curve(words, place, curves[name], _film(pad, cells)) for name, (words, pad) in PADS.items()),
     )
 
 
@@ -100,6 +103,20 @@ def _curves() -> tuple[Array, dict[str, Array]]:
     table = published("bertocchi")
     columns = {name: np.array([float(one[f"pressure_{name}_pocket [MPa]"]) for one in table]) for name in PADS}
     return np.array([float(one["x_over_length [1]"]) for one in table]), columns
+
+
+def _curve(words: str, place: Array, curve: Array, film: Solution) -> Curve:
+    """A whole curve beside ours."""
+    x, pressure = _centre(film)
+    return Curve(
+        title=words,
+        abscissa="x/L",
+        ordinate="absolute pressure, MPa",
+        x=tuple(x.tolist()),
+        ours=tuple(pressure.tolist()),
+        published_x=tuple(place.tolist()),
+        published=tuple(curve.tolist()),
+    )
 
 
 def _within(place: Array) -> Array:
@@ -131,7 +148,9 @@ def _rows(words: str, place: Array, curve: Array, film: Solution, coarser: Solut
         for at in STATIONS
     ]
     highest = (f"{words}, peak", float(x[ours.argmax()]), float(ours.max()), float(_centre(coarser)[1].max()))
-    values = {case: float(np.interp(at, place, curve)) for case, at, _, _ in stations} | {highest[0]: float(curve.max())}
+    values = {case: float(np.interp(at, place, curve)) for case, at, _, _ in stations} | {
+        highest[0]: float(curve.max())
+    }
     return [
         Row(
             case=case,

@@ -116,7 +116,9 @@ def _between(known: Mapping[float, float], at: float) -> float:
 
 
 def _remarks(rows: list[Row]) -> tuple[str, ...]:
-    by_quantity = {row.quantity: [abs(one.relative or 0) for one in rows if one.quantity == row.quantity] for row in rows}
+    by_quantity = {
+        row.quantity: [abs(one.relative or 0) for one in rows if one.quantity == row.quantity] for row in rows
+    }
     medians = ", ".join(f"{100 * median(values):.2g} % ({words})" for words, values in by_quantity.items())
     return (f"The median difference is {medians}.",)
 
@@ -147,10 +149,10 @@ SOURCE = Source(
     citation="H. J. Butenschön, Das hydrodynamische, zylindrische Gleitlager endlicher Breite unter instationärer "
     "Belastung, thesis, Karlsruhe 1976, the basis of DIN 31652",
     obtained="Read in the tests of mboct-mbdyn-pkg (GPL-3), not in the thesis; entries stand as found there.",
-    method="reynolds_incompressible on 160 × 160 cells, from ε = 0.9 on 384 × 384",
+    method="reynolds_incompressible on 160 × 160 cells, from ε = 0.9 on 320 × 320",
     bar="0.5 % and half a unit of the last printed digit; the thesis states no accuracy, its values have 3 to 6 figures",
     abscissa="eccentricity ε",
     logarithmic=True,
-    cost=(30.0, 120.0),
+    cost=(24.0, 120.0),
     answer=answer,
 )
