@@ -7,8 +7,8 @@ from typing import Any
 
 from roughfilm.validation.published import Answer, Row, Source, Verdict
 
-COLUMNS = ("source", "numbers", "within", "outside", "suspect", "median difference", "largest difference")
-"""Columns of the table of all sources."""
+COLUMNS = ("source", "numbers", "within", "outside", "suspect", "median", "largest")
+"""Columns of the table of all sources; the last two are relative differences."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,7 +22,7 @@ class Compared:
 
     def count(self, verdict: Verdict) -> int:
         """Number of rows with a verdict."""
-        return sum(row.verdict is verdict for row in self.answer.rows)
+        return sum(row.verdict == verdict for row in self.answer.rows)
 
     @property
     def differences(self) -> list[float]:

@@ -150,7 +150,7 @@ SOURCE = Source(
     "Belastung, thesis, Karlsruhe 1976, the basis of DIN 31652",
     obtained="Read in the tests of mboct-mbdyn-pkg (GPL-3), not in the thesis; entries stand as found there.",
     method="reynolds_incompressible on 160 × 160 cells, from ε = 0.9 on 320 × 320",
-    bar="0.5 % and half a unit of the last printed digit; the thesis states no accuracy, its values have 3 to 6 figures",
+    bar="0.5 % and half a unit of the last printed digit; the values have 3 to 6 figures",
     abscissa="eccentricity ε",
     logarithmic=True,
     cost=(24.0, 120.0),

@@ -133,11 +133,11 @@ def _remarks(one: Closing, points: int, exponents: list[float]) -> tuple[str, ..
     far, near = one.local[0], one.local[-1]
     of_gap = np.diff(np.log(one.gap))[-1] / np.diff(np.log(one.load - one.loads))[-1]
     return (
-        f"The local exponent falls from {far:.2f} at half of the closing load to {near:.3f} at {100 * DISTANCES[-1]:g} % "
-        f"before it, where {one.open_points[-1]} of {points} points across the saddle are open; there the gap in the "
+        f"The local exponent falls from {far:.2f} at half of the closing load to {near:.3f} at {100 * DISTANCES[-1]:g} "
+        f"% before it, where {one.open_points[-1]} of {points} points across the saddle are open; there the gap in the "
         f"middle of the saddle follows the power {of_gap:.2f}.",
-        f"Fitted with the leading correction, up to distances of {', '.join(f'{100 * far:g} %' for far in RANGES)} from the "
-        f"closing load: {', '.join(f'{value:.3f}' for value in exponents)}. The closing load is fitted too.",
+        f"Fitted with the leading correction, up to distances of {', '.join(f'{100 * far:g} %' for far in RANGES)} from "
+        f"the closing load: {', '.join(f'{value:.3f}' for value in exponents)}. The closing load is fitted too.",
     )
 
 
@@ -166,7 +166,7 @@ def _curve(one: Closing, exponent: float) -> Curve:
 SOURCE = Source(
     name="dapp_mueser",
     title="Exponent of the flow resistance of a saddle before contact closes it",
-    citation="W. B. Dapp, M. H. Müser, Contact mechanics of and Reynolds flow through saddle points, EPL 109 (2015) 44001",
+    citation="W. B. Dapp, M. H. Müser, EPL 109 (2015) 44001, doi:10.1209/0295-5075/109/44001",
     obtained="The abstract: resistance ~ (Lc − L)^−3.45 for the load L and the load Lc that closes the saddle, without "
     "adhesion.",
     method="elastic contact and direct flow through one period of z = cos x + cos y, on 256 × 256 and 512 × 512 points "

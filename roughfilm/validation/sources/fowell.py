@@ -111,10 +111,9 @@ def _reforms(x: Array, pressure: Array, start: float, end: float) -> float:
 SOURCE = Source(
     name="fowell",
     title="Infinitely wide pad with one pocket that cavitates, in closed form",
-    citation="M. Fowell, A. V. Olver, A. D. Gosman, H. A. Spikes, I. Pegg, Entrainment and Inlet Suction: Two Mechanisms "
-    "of Hydrodynamic Lubrication in Textured Bearings, J. Tribology 129 (2007) 336-347",
-    obtained="The formula, as the tests of mboct-mbdyn-pkg state it, evaluated for three cases and confirmed by quadrature "
-    "of the Reynolds equation to 1e-13.",
+    citation="M. Fowell, A. V. Olver, A. D. Gosman, H. A. Spikes, I. Pegg, J. Tribology 129 (2007) 336-347",
+    obtained="The formula, as the tests of mboct-mbdyn-pkg state it, evaluated for three cases and confirmed by "
+    "quadrature of the Reynolds equation to 1e-13.",
     method="reynolds_incompressible without side flow on 4000 cells",
     bar="0.01 %, asked of the solver; the closed form is exact",
     abscissa="case",

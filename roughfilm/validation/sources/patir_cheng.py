@@ -122,15 +122,15 @@ def _second_order(rows: list[Row]) -> str:
             for row, value in zip(found, theory, strict=True)
         ]
     return (
-        f"At H = {GAPS[-1]:g} theory of second order in σ/h (Elrod 1979, Tripp 1983), which is independent of both, gives "
+        f"At H = {GAPS[-1]:g} theory of second order in σ/h (Elrod 1979, Tripp 1983), independent of both, gives "
         f"{'; '.join(words)}."
     )
 
 
 _REMARKS = (
-    "H is the distance of the mean planes over the combined rms height σ, not the mean of the truncated gap; heights that "
-    "would overlap are cut off, as in the papers, and are not pressed elastically.",
-    "The fits go back to simulations of 1978 in boxes with closed sides and few points; homogenized cells are periodic. "
+    "H is the distance of the mean planes over the combined rms height σ, not the mean of the truncated gap; heights "
+    "that would overlap are cut off, as in the papers, and are not pressed elastically.",
+    "The fits go back to simulations of 1978 in boxes with closed sides; homogenized cells are periodic. "
     "The uncertainty of ours is twice the standard error of the mean over the surfaces.",
 )
 
@@ -138,7 +138,7 @@ SOURCE = Source(
     name="patir_cheng",
     title="Flow factors of Gaussian surfaces against the fits of the average flow model",
     citation="N. Patir, H. S. Cheng, J. Lubrication Technology 100 (1978) 12-17 and 101 (1979) 220-230",
-    obtained="The coefficients, as flowFactorsPatirCheng.C of foam-extend 4.0 (GPL-3) states them, not read in the papers.",
+    obtained="The coefficients in flowFactorsPatirCheng.C of foam-extend 4.0 (GPL-3), not read in the papers.",
     method=f"homogenized cells of {POINTS} × {POINTS} points, {SEEDS} surfaces of each γ",
     bar="5 %, the upper end of the 2 to 5 % that the fits are worth",
     abscissa="nominal gap H = h/σ",

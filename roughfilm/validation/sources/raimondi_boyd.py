@@ -88,7 +88,7 @@ SOURCE = Source(
     title="Full journal bearing, L/D = 1, 1/2 and 1/4",
     citation="A. A. Raimondi, J. Boyd, A Solution for the Finite Journal Bearing and its Application to Analysis and "
     "Design III, ASLE Transactions 1 (1958) 194-209",
-    obtained="The table as textbooks of machine design reprint it, entered from memory and not compared with the paper; "
+    obtained="The table as textbooks of machine design reprint it, entered from memory, not compared with the paper; "
     "every flow agrees with ours to 0.5 %, which a slip of the memory would hardly do.",
     method="reynolds_incompressible on 160 × 160 cells, from ε = 0.9 on 320 × 320",
     bar="1 % and half a unit of the last printed digit; the values have two or three figures",
