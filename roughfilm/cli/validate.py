@@ -8,7 +8,6 @@ import typer
 from roughfilm.batch.directory import alone
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing, write_json
-from roughfilm.contact.foundation.units import with_error
 from roughfilm.contact.foundation.writing.kinds import JSON, PAGE, beginning_with
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.ladder.provenance import circumstances
@@ -18,7 +17,7 @@ from roughfilm.terminal.results import print_all, table_of, written
 from roughfilm.validation.listing import names, source
 from roughfilm.validation.reading import not_yet
 from roughfilm.validation.store import answered
-from roughfilm.validation.summary import COLUMNS, Compared, entries_of, headline, in_markdown, largest
+from roughfilm.validation.summary import COLUMNS, Compared, entries_of, headline, in_markdown, largest, ours_in_words
 
 EXAMPLES = (
     "roughfilm validate --out validation",
@@ -55,6 +54,7 @@ def command(
             if one.answer.curves
             else compared_figure(one.source, one.answer.rows)
             for one in compared
+            if one.answer.curves or len(one.answer.rows) > 1
         }
         write_figures(figures, out)
         with replacing(out / "validation.md", markdown) as scratch:
@@ -69,7 +69,7 @@ def command(
             headline=headline(compared),
             largest=largest(compared),
             not_yet=not_yet(),
-            with_error=with_error,
+            ours=ours_in_words,
             circumstances=circumstances(),
         )
         write_json(entries, out / "validation.json")

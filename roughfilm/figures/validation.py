@@ -1,5 +1,6 @@
 """Published numbers beside ours."""
 
+import textwrap
 from collections.abc import Sequence
 
 import numpy as np
@@ -12,19 +13,23 @@ from roughfilm.validation.published import Curve, Row, Source, Verdict
 COLOURS = {Verdict.WITHIN: "#2166ac", Verdict.OUTSIDE: "#b2182b", Verdict.SUSPECT: "#e08214"}
 """Colours of the verdicts."""
 
+WIDTH, COLUMNS = 9.6, 3
+"""Width of a figure, inches, and largest number of quantities beside each other."""
+
+MIN_DECADES = 1.5
+"""Range of the values, decades, from which on their axis is logarithmic."""
+
 
 def compared_figure(source: Source, rows: Sequence[Row]) -> str:
     """For each quantity the published values and ours, and below them their difference over what is allowed."""
     quantities = list(dict.fromkeys(row.quantity for row in rows))
-    columns = min(len(quantities), 4)
+    columns = min(len(quantities), COLUMNS)
     blocks = -(-len(quantities) // columns)
-    figure, axes = new_figure(
-        (max(2.7 * columns, 5.4), 4.4 * blocks), 2 * blocks, columns, squeeze=False, height_ratios=[2, 1] * blocks
-    )
+    figure, axes = new_figure((WIDTH, 4.2 * blocks), 2 * blocks, columns, squeeze=False, height_ratios=[2, 1] * blocks)
     for number, quantity in enumerate(quantities):
         block, column = divmod(number, columns)
         own = [row for row in rows if row.quantity == quantity]
-        _values(axes[2 * block, column], own, logarithmic=source.logarithmic)
+        _values(axes[2 * block, column], own)
         _differences(axes[2 * block + 1, column], own)
         axes[2 * block + 1, column].set_xlabel(source.abscissa, fontsize=9)
         if column == 0:
@@ -38,7 +43,7 @@ def compared_figure(source: Source, rows: Sequence[Row]) -> str:
     return svg(figure)
 
 
-def _values(axes: Axes, rows: Sequence[Row], *, logarithmic: bool) -> None:
+def _values(axes: Axes, rows: Sequence[Row]) -> None:
     series = list(dict.fromkeys(row.series for row in rows))
     colours = colormaps["viridis"](np.linspace(0, 0.85, len(series)))
     for name, colour in zip(series, colours, strict=True):
@@ -48,10 +53,11 @@ def _values(axes: Axes, rows: Sequence[Row], *, logarithmic: bool) -> None:
         axes.plot(at, [row.ours for row in own], color=colour, linewidth=1.2, label=label)
         axes.plot(at, [row.published for row in own], "o", color=colour, markersize=4, markerfacecolor="none")
     axes.plot([], [], "o", color="black", markersize=4, markerfacecolor="none", label="published")
-    if logarithmic:
+    values = np.array([[row.published, row.ours] for row in rows])
+    if values.min() > 0 and values.max() > values.min() * 10**MIN_DECADES:
         axes.set_yscale("log")
     unit = rows[0].unit
-    axes.set_title(rows[0].quantity + ("" if unit == "1" else f", {unit}"), fontsize=9, wrap=True)
+    axes.set_title(textwrap.fill(rows[0].quantity + ("" if unit == "1" else f", {unit}"), 36), fontsize=9)
     axes.tick_params(labelsize=8, labelbottom=False)
 
 
@@ -65,7 +71,7 @@ def _differences(axes: Axes, rows: Sequence[Row]) -> None:
 
 def curve_figure(curves: Sequence[Curve]) -> str:
     """Published curves beside ours."""
-    figure, panels = new_figure((5.4 * len(curves) if len(curves) > 1 else 7, 3.6), 1, len(curves), squeeze=False)
+    figure, panels = new_figure((WIDTH, 3.6), 1, len(curves), squeeze=False)
     for axes, curve in zip(panels[0], curves, strict=True):
         line = "-" if len(curve.published) == 2 else "."
         axes.plot(

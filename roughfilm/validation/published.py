@@ -130,7 +130,6 @@ class Source:
     method : which model answers, at which resolution.
     bar : accuracy of the numbers, in words.
     abscissa : label of the abscissa of the figure.
-    logarithmic : whether the figure has a logarithmic ordinate.
     cost : expected CPU time, s, by default and with the finest grids.
     answer : answer(thorough, progress), with the finest grids if ``thorough``.
     """
@@ -142,6 +141,5 @@ class Source:
     method: str
     bar: str
     abscissa: str
-    logarithmic: bool = False
     cost: tuple[float, float]
     answer: Callable[[bool, Progress], Answer]

@@ -5,10 +5,15 @@ from dataclasses import asdict, dataclass
 from statistics import median
 from typing import Any
 
+from roughfilm.contact.foundation.units import with_error
 from roughfilm.validation.published import Answer, Row, Source, Verdict
 
 COLUMNS = ("source", "numbers", "within", "outside", "suspect", "median", "largest")
 """Columns of the table of all sources; the last two are relative differences."""
+
+
+MIN_UNCERTAINTY = 1e-6
+"""Uncertainty over the value below which it is not shown."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,6 +60,13 @@ def in_percent(relative: float) -> str:
     ('1.2 %', '1.2e-07 %')
     """
     return f"{100 * relative:.2g} %"
+
+
+def ours_in_words(row: Row) -> str:
+    """Our value with its uncertainty, or with six digits where that is smaller."""
+    if row.uncertainty is not None and row.uncertainty < MIN_UNCERTAINTY * abs(row.ours):
+        return f"{row.ours:.6g}"
+    return with_error(row.ours, row.uncertainty)
 
 
 def headline(compared: Sequence[Compared]) -> str:

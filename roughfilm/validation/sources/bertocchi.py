@@ -251,9 +251,10 @@ def _remarks(
         f"{_extrapolated(volumes['large']):.2f} MPa.",
         f"Narrow pad: {converged:.2f} MPa is right for the set-up as stated, and the published "
         f"{printed['small']:.2f} MPa is {100 * (1 - printed['small'] / converged):.1f} % too low. On "
-        f"{len(GRIDS)} grids of different shapes the peak is {min(narrow):.2f} to {max(narrow):.2f} MPa; finite volumes "
-        f"that share no code with the model come down to it, {', '.join(f'{one:.2f}' for one in volumes['small'])} MPa, "
-        f"extrapolated {_extrapolated(volumes['small']):.2f} MPa. Coarse grids give peaks above the limit with that "
+        f"{len(GRIDS)} grids of different shapes the peak is {min(narrow):.2f} to {max(narrow):.2f} MPa; finite "
+        "volumes that share no code with the model come down to it, "
+        f"{', '.join(f'{one:.2f}' for one in volumes['small'])} MPa, extrapolated "
+        f"{_extrapolated(volumes['small']):.2f} MPa. Coarse grids give peaks above the limit with that "
         "method and nearly at it with the model: they do not explain the published peak, which lies below.",
         f"Mass is conserved: inlet flow less outflow through outlet and sides is {lost:.0e} of the inlet flow.",
         f"Of all changes of the set-up, this one brings the peak nearest to the narrow curve: {nearest}, "

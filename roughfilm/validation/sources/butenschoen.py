@@ -38,7 +38,7 @@ def answer(thorough: bool, progress: Progress) -> Answer:
     for number, ((eccentricity, width), printed) in enumerate(table.items()):
         progress(number / len(table), f"journal bearing, eccentricity {eccentricity:g}, B/D {width:.3g}")
         rows += _rows(table, eccentricity, width, printed, thorough=thorough)
-    return Answer(rows=tuple(rows), remarks=_remarks(rows), studies=(_misprints(rows),))
+    return Answer(rows=tuple(rows), remarks=_remarks(rows), studies=(_misprints(table, rows),))
 
 
 def _table() -> list[dict[str, str]]:
@@ -123,12 +123,17 @@ def _remarks(rows: list[Row]) -> tuple[str, ...]:
     return (f"The median difference is {medians}.",)
 
 
-def _misprints(rows: list[Row]) -> Study:
+def _misprints(table: Entries, rows: list[Row]) -> Study:
     """The entries that are marked as misprints or lie outside of the bar."""
-    chosen = [row for row in rows if row.evidence or row.verdict is not Verdict.WITHIN]
+    columns = {words: f"{name} [{unit}]" for name, (words, unit) in QUANTITIES.items()}
+    chosen = [
+        (row, interpolated(table, *key, columns[row.quantity]))
+        for key, row in zip((key for key in table for _ in QUANTITIES), rows, strict=True)
+        if row.evidence or row.verdict is not Verdict.WITHIN
+    ]
     return Study(
         title="Entries that are suspected as misprints, and entries outside of the bar",
-        columns=("entry", "quantity", "printed", "ours", "difference", "the rest of the table"),
+        columns=("entry", "quantity", "printed", "ours", "difference", "interpolated in the table"),
         cells=tuple(
             (
                 row.case,
@@ -136,9 +141,9 @@ def _misprints(rows: list[Row]) -> Study:
                 f"{row.published:g}",
                 f"{row.ours:.4g} ± {row.uncertainty or 0:.1g}",
                 f"{100 * (row.relative or 0):+.2f} %",
-                row.evidence or "–",
+                "a corner" if likely is None else f"{likely:.4g}",
             )
-            for row in chosen
+            for row, likely in chosen
         ),
     )
 
@@ -152,7 +157,6 @@ SOURCE = Source(
     method="reynolds_incompressible on 160 × 160 cells, from ε = 0.9 on 320 × 320",
     bar="0.5 % and half a unit of the last printed digit; the values have 3 to 6 figures",
     abscissa="eccentricity ε",
-    logarithmic=True,
     cost=(24.0, 120.0),
     answer=answer,
 )

@@ -136,8 +136,8 @@ def _remarks(one: Closing, points: int, exponents: list[float]) -> tuple[str, ..
         f"The local exponent falls from {far:.2f} at half of the closing load to {near:.3f} at {100 * DISTANCES[-1]:g} "
         f"% before it, where {one.open_points[-1]} of {points} points across the saddle are open; there the gap in the "
         f"middle of the saddle follows the power {of_gap:.2f}.",
-        f"Fitted with the leading correction, up to distances of {', '.join(f'{100 * far:g} %' for far in RANGES)} from "
-        f"the closing load: {', '.join(f'{value:.3f}' for value in exponents)}. The closing load is fitted too.",
+        f"Fitted with the leading correction up to {', '.join(f'{100 * far:g} %' for far in RANGES)} before the "
+        f"closing load: {', '.join(f'{value:.3f}' for value in exponents)}. The closing load is fitted too.",
     )
 
 

@@ -117,7 +117,6 @@ SOURCE = Source(
     method="reynolds_incompressible without side flow on 4000 cells",
     bar="0.01 %, asked of the solver; the closed form is exact",
     abscissa="case",
-    logarithmic=True,
     cost=(1.0, 2.0),
     answer=answer,
 )

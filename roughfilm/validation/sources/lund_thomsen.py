@@ -19,7 +19,7 @@ RADIUS, CLEARANCE, VISCOSITY = 0.05, 50e-6, 0.2
 """Radius and clearance, m, and viscosity, Pa s."""
 
 SPEED = 100.0
-"""Speed, m/s, at which the pressure of the film far exceeds the difference of ambient and cavitation pressure, 1 bar."""
+"""Speed, m/s, at which the film's pressure far exceeds the 1 bar between ambient and cavitation pressure."""
 
 GROOVE = math.radians(20)
 """Extent of a groove, rad: the pads between have 160 degrees."""
@@ -27,7 +27,7 @@ GROOVE = math.radians(20)
 DEPTH, DEEPER = 50.0, 100.0
 """Depth of the grooves over the clearance, in which the pressure is then nearly ambient; the second is a check."""
 
-TURNS = 5
+TURNS = 3
 """Number of films after which the grooves stand at right angles to the load."""
 
 CELLS, FINER = 180, 360
@@ -121,6 +121,6 @@ SOURCE = Source(
     bar="that of the literature tests of ROSS: 0.01 in eccentricity, converted to S by the slope of the table, and 0.5 "
     "degrees",
     abscissa="eccentricity ε",
-    cost=(8.0, 40.0),
+    cost=(4.0, 20.0),
     answer=answer,
 )

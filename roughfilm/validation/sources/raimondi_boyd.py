@@ -93,7 +93,6 @@ SOURCE = Source(
     method="reynolds_incompressible on 160 × 160 cells, from ε = 0.9 on 320 × 320",
     bar="1 % and half a unit of the last printed digit; the values have two or three figures",
     abscissa="eccentricity ε",
-    logarithmic=True,
     cost=(5.0, 20.0),
     answer=answer,
 )

@@ -74,7 +74,6 @@ SOURCE = Source(
     method=f"the solver of the model elastic, on {POINTS} points a wave",
     bar="1 %, asked of the solver; the closed form is exact",
     abscissa="load over that of full contact, P/p*",
-    logarithmic=True,
     cost=(1.0, 4.0),
     answer=answer,
 )
