@@ -1,6 +1,10 @@
 """The figures of a comparison as SVG text, and what all figures share."""
 
+import hashlib
+import html
 import io
+import json
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -12,6 +16,7 @@ from matplotlib.image import AxesImage
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from roughfilm.contact.mechanics.contact import Contact
+from roughfilm.figures.readings import readings
 from roughfilm.figures.view import View
 from roughfilm.rom.studies.comparison import Point, pareto_front
 from roughfilm.rom.studies.convergence import Convergence, ConvergenceKind
@@ -164,8 +169,15 @@ def map_figure(size: tuple[float, float], models: int, height: float) -> tuple[F
 
 
 def svg(figure: Figure) -> str:
-    """The figure as SVG text."""
+    """The figure as SVG text, which holds the values that a page shows under the pointer.
+
+    The text can stand beside others on one page: its identifiers begin with a digest of itself.
+    """
     buffer = io.StringIO()
     figure.savefig(buffer, format="svg", metadata={"Date": None})
     text = buffer.getvalue()
-    return text[text.index("<svg") :]
+    text = text[text.index("<svg") :]
+    own = "f" + hashlib.sha256(text.encode()).hexdigest()[:8] + "-"
+    text = re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>{own}", text)
+    held = json.dumps(readings(figure), ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    return text.replace("</svg>", f'<metadata class="readings">{html.escape(held, quote=False)}</metadata>\n</svg>')

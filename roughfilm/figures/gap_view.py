@@ -2,14 +2,13 @@
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.foundation.writing.kinds import PICTURE
-from roughfilm.figures.rendering import scalar_bar
+from roughfilm.figures.relief import MAX_POINTS, MAX_SCENE_POINTS, white_plotter
+from roughfilm.figures.rendering import scalar_bar, write_picture
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
 
@@ -34,49 +33,51 @@ WALL, CONTACT = "#9aa5b1", "#d7301f"
 
 
 def draw(result: Result, picture: Path) -> None:
-    """Draw one PNG: the lower wall, contact in red, speed in two sections, and streamlines along the gradient."""
+    """Draw the lower wall, contact in red, speed in two sections, and streamlines along the gradient. It turns."""
+    film = film_of(result)
+    plotter, turning = (white_plotter(WINDOW) for _ in range(2))
+    _add(plotter, film, most=MAX_POINTS, bar=scalar_bar((0.3, 0.005), (0.4, 0.07), labels=5))
+    _add(turning, film, most=MAX_SCENE_POINTS)
+    write_picture(plotter, picture, turning)
+
+
+def _add(
+    plotter: "pyvista.Plotter",
+    film: "pyvista.StructuredGrid",
+    *,
+    most: int,
+    bar: "pyvista.ScalarBarArgs | None" = None,
+) -> None:
+    """Show a film whose wall has at most so many points along a side, and look at it from above its corner."""
     import pyvista
 
-    film = film_of(result)
     length, _, height = np.ptp(film.points, axis=0)
     low, high = film.points[:, 2].min(), film.points[:, 2].max()
-    plotter = pyvista.Plotter(off_screen=True, window_size=list(WINDOW))
-    plotter.background_color = "white"  # type: ignore[assignment]
-    plotter.add_mesh(lower_wall(film), color=WALL, smooth_shading=True, specular=0.2)
+    plotter.add_mesh(lower_wall(film, most), color=WALL, smooth_shading=True, specular=0.2)
     touching = contact_of(film)
     if touching is not None:
         plotter.add_mesh(touching, color=CONTACT)
     open_film = film.threshold(0.5, scalars="kept").cell_data_to_point_data()
     bounds = film.bounds
-    top = float(np.percentile(open_film[SPEED], 99.9))
+    look: dict[str, Any] = {"scalars": SPEED, "cmap": "magma", "lighting": False}
+    look["clim"] = (0, float(np.percentile(open_film[SPEED], 99.9)))
     for number, (normal, place) in enumerate((("x", bounds[1] - 1e-3 * length), ("y", bounds[3] - 1e-3 * length))):
         origin = [bounds[0], bounds[2], low]
         origin["xy".index(normal)] = place
         section = open_film.slice(normal=normal, origin=origin)
         if section.n_cells:
-            plotter.add_mesh(
-                section,
-                scalars=SPEED,
-                cmap="magma",
-                clim=(0, top),
-                lighting=False,
-                show_scalar_bar=number == 0,
-                scalar_bar_args=scalar_bar((0.3, 0.005), (0.4, 0.07), labels=5),
-            )
+            barred = number == 0 and bar is not None
+            plotter.add_mesh(section, show_scalar_bar=barred, scalar_bar_args=bar if barred else None, **look)
     seeds = pyvista.PolyData(_seeds(film))
     lines = open_film.streamlines_from_source(
         seeds, vectors="velocity", integration_direction="forward", max_length=3 * length
     )
     if lines.n_points:
-        plotter.add_mesh(
-            lines, scalars=SPEED, cmap="magma", clim=(0, top), lighting=False, line_width=2.5, show_scalar_bar=False
-        )
+        plotter.add_mesh(lines, line_width=2.5, show_scalar_bar=False, **look)
     middle = np.array([(bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2, (low + high) / 2 - 1.1 * height])
     away = max(length, bounds[3] - bounds[2])
     plotter.camera_position = [tuple(middle + away * np.array([-0.85, -1.2, 1.15])), tuple(middle), (0, 0, 1)]
     plotter.camera.view_angle = 34.0
-    with replacing(picture, PICTURE) as scratch:
-        plotter.screenshot(str(scratch))
 
 
 def film_of(result: Result) -> "pyvista.StructuredGrid":
@@ -101,10 +102,13 @@ def film_of(result: Result) -> "pyvista.StructuredGrid":
     return grid
 
 
-def lower_wall(film: "pyvista.StructuredGrid") -> "pyvista.StructuredGrid":
-    """The rough wall alone."""
+def lower_wall(film: "pyvista.StructuredGrid", most: int) -> "pyvista.StructuredGrid":
+    """The rough wall alone, with at most so many points along a side."""
     nx, ny, _ = film.dimensions
-    wall: pyvista.StructuredGrid = film.extract_subset((0, nx - 1, 0, ny - 1, 0, 0))
+    step = max(1, -(-max(nx, ny) // most))
+    wall: pyvista.StructuredGrid = film.extract_subset(
+        (0, nx - 1, 0, ny - 1, 0, 0), rate=(step, step, 1), boundary=True
+    )
     return wall
 
 

@@ -3,20 +3,17 @@
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.foundation.writing.kinds import PICTURE
 from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.contact.mechanics.gap_map import GapMap
-from roughfilm.figures.rendering import draw_apart, embedded, scalar_bar
+from roughfilm.figures.relief import MAX_POINTS, MAX_SCENE_POINTS, add_relief, white_plotter
+from roughfilm.figures.rendering import draw_apart, embedded, scalar_bar, write_picture
 
 PANEL = (760, 560)
 """Pixels."""
-
-RELIEF = 0.2
-"""Height of the undeformed surface over its longer side, in the picture."""
 
 CONTACT = "#d7301f"
 
@@ -38,52 +35,25 @@ def view_picture(views: Sequence[GapMap]) -> tuple[str | None, str]:
 
 
 def draw(file: Path, picture: Path) -> None:
-    """The surface under each load, seen from the counter body; colour is the gap, contact is red."""
-    import pyvista
-
+    """Draw the surface under each load from the counter body; colour is the gap, contact is red. The last one turns."""
     with np.load(file) as held:
         gaps, titles = held["gaps"], [str(title) for title in held["titles"]]
-        (dx, dy), relief = held["spacing"], float(held["relief"])
+        spacing, relief = held["spacing"], float(held["relief"])
     columns = len(gaps) if len(gaps) <= 3 else 2
     lines = -(-len(gaps) // columns)
-    plotter = pyvista.Plotter(
-        off_screen=True,
-        shape=(lines, columns),
-        border=False,
-        window_size=[PANEL[0] * columns, PANEL[1] * lines],
-    )
-    plotter.background_color = "white"  # type: ignore[assignment]
-    nx, ny = gaps.shape[1:]
-    length, width = nx * dx, ny * dy
-    away = max(length, width)
-    stretch = RELIEF * away / relief
+    plotter = white_plotter((PANEL[0] * columns, PANEL[1] * lines), shape=(lines, columns), border=False)
+    turning = white_plotter(PANEL)
     top = max(float(np.percentile(gap, 99.5)) for gap in gaps) * 1e6 or 1.0
-    x, y = np.meshgrid(np.arange(nx) * dx, np.arange(ny) * dy, indexing="ij")
-    for number, (gap, title) in enumerate(zip(gaps, titles, strict=True)):
+    look: dict[str, Any] = {"name": "gap, µm", "cmap": "YlGnBu", "clim": (0, top), "below_color": CONTACT}
+    colours = [np.where(gap > 0, gap * 1e6, -1.0) for gap in gaps]
+    bar = scalar_bar((0.25, 0.01), (0.5, 0.06), labels=4, digits=2, size=16)
+    for number, (gap, colour, title) in enumerate(zip(gaps, colours, titles, strict=True)):
         plotter.subplot(number // columns, number % columns)
-        grid = pyvista.StructuredGrid(*(axis[..., None] for axis in (x, y, -gap * stretch)))
-        grid.point_data["gap, µm"] = np.where(gap > 0, gap * 1e6, -1.0).ravel(order="F")
-        plotter.add_mesh(
-            grid,
-            scalars="gap, µm",
-            cmap="YlGnBu",
-            clim=(0, top),
-            below_color=CONTACT,
-            smooth_shading=True,
-            specular=0.3,
-            show_scalar_bar=number == 0,
-            scalar_bar_args=scalar_bar((0.25, 0.01), (0.5, 0.06), labels=4, digits=2, size=16),
-        )
+        first = bar if number == 0 else None
+        add_relief(plotter, -gap, colour, spacing, relief, most=MAX_POINTS, bar=first, **look)
         plotter.add_text(title, position=(20, PANEL[1] - 44), font_size=12, color="#222222")
-        middle = (length / 2, width / 2, -RELIEF / 2 * away)
-        plotter.camera_position = [
-            (middle[0] - 0.75 * away, middle[1] - 1.15 * away, middle[2] + 1.15 * away),
-            (middle[0], middle[1], middle[2] - 0.1 * away),
-            (0, 0, 1),
-        ]
-        plotter.camera.view_angle = 34.0
-    with replacing(picture, PICTURE) as scratch:
-        plotter.screenshot(str(scratch))
+    add_relief(turning, -gaps[-1], colours[-1], spacing, relief, most=MAX_SCENE_POINTS, **look)
+    write_picture(plotter, picture, turning)
 
 
 if __name__ == "__main__":

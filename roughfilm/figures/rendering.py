@@ -1,12 +1,21 @@
 """Pictures drawn by VTK in a process of their own, because missing graphics libraries make it crash."""
 
 import base64
+import gzip
+import importlib.util
+import io
+import json
+import struct
 import subprocess
 import sys
+import zipfile
+import zlib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roughfilm.contact.foundation.child_processes import terminate_with_parent
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.writing.kinds import PICTURE
 from roughfilm.rom.ladder.model import Availability
 
 if TYPE_CHECKING:
@@ -14,6 +23,12 @@ if TYPE_CHECKING:
 
 REMEDY = "install graphics libraries with: sudo apt-get install libegl1 libgl1-mesa-dri libxrender1"
 TIME_LIMIT_S = 180
+
+SCENE_CHUNK = b"scEn"
+"""Type of the chunk of a PNG file that holds a scene: ancillary, private, safe to copy."""
+
+END_OF_PNG = 12
+"""Bytes of the chunk that ends a PNG file."""
 
 PROBE = """
 import pyvista
@@ -25,8 +40,55 @@ print(pyvista.vtk_version_info)
 
 
 def embedded(picture: Path) -> str:
-    """The address of an image that holds a PNG file itself."""
-    return "data:image/png;base64," + base64.b64encode(picture.read_bytes()).decode("ascii")
+    """The address of an image that holds a PNG file itself, and says whether the file holds a scene that turns."""
+    held = picture.read_bytes()
+    turns = ";scene=turns" if SCENE_CHUNK in held else ""
+    return f"data:image/png{turns};base64," + base64.b64encode(held).decode("ascii")
+
+
+def write_picture(plotter: "pyvista.Plotter", picture: Path, turning: "pyvista.Plotter | None" = None) -> None:
+    """Write what a plotter shows as a PNG file, with what another shows as the scene that turns in its place.
+
+    The scene is in a private chunk of the PNG file (``SCENE_CHUNK``), so that both stay together.
+    """
+    with replacing(picture, PICTURE) as scratch:
+        plotter.screenshot(str(scratch))
+        if turning is not None:
+            held, scene = scratch.read_bytes(), SCENE_CHUNK + _scene(turning)
+            chunk = struct.pack(">I", len(scene) - len(SCENE_CHUNK)) + scene + struct.pack(">I", zlib.crc32(scene))
+            scratch.write_bytes(held[:-END_OF_PNG] + chunk + held[-END_OF_PNG:])
+
+
+def _scene(plotter: "pyvista.Plotter") -> bytes:
+    """What a plotter shows as ``static_viewer.html`` of trame-vtk reads it: the window and its arrays in a ZIP file."""
+    from trame_vtk.modules.vtk import serializers as vtk_js
+
+    vtk_js.initialize_serializers()
+    context = vtk_js.SynchronizationContext()
+    window = plotter.render_window
+    window.Render()
+    camera = plotter.renderer.GetActiveCamera()
+    state = vtk_js.serialize(None, window, vtk_js.reference_id(window), context, 1)
+    state["extra"] = {
+        "vtkRefId": vtk_js.reference_id(window),
+        "centerOfRotation": camera.GetFocalPoint(),
+        "camera": vtk_js.reference_id(camera),
+    }
+    hashes = {
+        entry["hash"]: {**entry, "content": context.get_cached_data_array(entry["hash"])}
+        for entry in vtk_js.extract_array_hash(state)
+    }
+    held = io.BytesIO()
+    with zipfile.ZipFile(held, "w", compression=zipfile.ZIP_DEFLATED, compresslevel=9) as file:
+        file.writestr("index.json", json.dumps({"hashes": hashes, "scene": state}))
+    return held.getvalue()
+
+
+def viewer() -> str:
+    """The page of trame-vtk that turns a scene, compressed by gzip, in base64."""
+    found = importlib.util.find_spec("trame_vtk")
+    page = Path(str(found and found.origin)).parent / "tools" / "static_viewer.html"
+    return base64.b64encode(gzip.compress(page.read_bytes(), mtime=0)).decode("ascii")
 
 
 def scalar_bar(

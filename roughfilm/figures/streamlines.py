@@ -6,9 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.foundation.writing.kinds import PICTURE
-from roughfilm.figures.rendering import scalar_bar
+from roughfilm.figures.rendering import scalar_bar, write_picture
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
 
@@ -98,8 +96,7 @@ def draw(result: Result, picture: Path) -> None:
         0,
     )
     plotter.camera.parallel_scale = width / WINDOW[0] * WINDOW[1] / 2 * 1.04
-    with replacing(picture, PICTURE) as scratch:
-        plotter.screenshot(str(scratch))
+    write_picture(plotter, picture)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import jinja2
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.foundation.writing.kinds import FIGURE, PAGE
+from roughfilm.figures.rendering import viewer
 from roughfilm.rom.studies.comparison import Difference
 from roughfilm.terminal.layout import VISIBLE
 from roughfilm.words.cost import seconds
@@ -48,6 +49,8 @@ def render(template: str | Path, path: Path, *, overwrite: bool = False, **entri
         interval=_interval,
         span=lambda ends: "–" if ends is None else span(*ends),
     )
+    held = iter(("viewer",))
+    environment.globals["viewer"] = lambda: viewer() if next(held, None) else ""  # once a page
     page = environment.get_template(template.name).render(**entries)
     with replacing(path, PAGE, overwrite=overwrite) as scratch:
         scratch.write_text(page, encoding="utf-8", errors="replace")

@@ -8,6 +8,7 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.preparation.prepare import Prepared
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD
 from roughfilm.figures import surface as surface_figures
+from roughfilm.figures.relief import surface_picture
 from roughfilm.pages.render import render
 from roughfilm.words.numbers import in_unit
 from roughfilm.words.surface import preparation_steps
@@ -45,6 +46,7 @@ def write_page(
     source = provenance["surface"]
     while "prepared_from" in source:
         source = source["prepared_from"]
+    picture, missing = surface_picture(prepared.surface) if min(prepared.surface.shape) > 1 else (None, "")
     render(
         "surface.html.j2",
         path,
@@ -56,6 +58,8 @@ def write_page(
         mismatch=prepared.record["periodicity_mismatch"],
         threshold=MISMATCH_THRESHOLD,
         maps=surface_figures.height_maps(prepared),
+        picture=picture,
+        missing=missing,
         joints=surface_figures.joints(prepared),
         edges=surface_figures.edge_profiles(prepared),
         bearing=surface_figures.bearing_curves(prepared),

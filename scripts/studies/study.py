@@ -127,7 +127,7 @@ def write(
 
     Parameters
     ----------
-    folder : that of the study, whose name is the name of the files, with ``page.html.j2`` (see ``base.html.j2``) and,
+    folder : that of the study, whose name is the name of the files, with ``page.html.j2`` (see ``study.html.j2``) and,
         if it has any texts, ``study.toml``.
     out : directory for the files; made where it does not exist.
     figures : by name. A figure is written as an SVG file, and the page has it as ``plots[name]``.

@@ -48,10 +48,10 @@ def test_entries_of_json_have_lists_for_arrays_and_null_for_what_is_no_number():
 def test_a_study_is_a_page_its_figures_and_its_numbers(tmp_path, capsys):
     folder = tmp_path / "small"
     folder.mkdir()
-    template = """{% extends "base.html.j2" %}{% block title %}Small & round{% endblock %}
+    template = """{% extends "study.html.j2" %}{% block title %}Small & round{% endblock %}
 {% block content %}{{ plots["a b"] | safe }}{{ captions["a b"] }}{% endblock %}"""
     (folder / "page.html.j2").write_text(template, encoding="utf-8")
-    for name in ("base.html.j2", "claims.html.j2"):
+    for name in ("study.html.j2", "claims.html.j2"):
         source = Path(__file__).parents[3] / "scripts" / "studies" / name
         (tmp_path / name).write_text(source.read_text(encoding="utf-8"), encoding="utf-8")
     claim = Claim(number=7, text="It is small", verdict="partly", evidence="1 < 2")
