@@ -1,5 +1,6 @@
 """What the comparison with published numbers amounts to: counts, worst and median differences, tables in Markdown."""
 
+import textwrap
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from statistics import median
@@ -11,6 +12,9 @@ from roughfilm.validation.published import Answer, Row, Source, Verdict
 COLUMNS = ("source", "numbers", "within", "outside", "suspect", "median", "largest")
 """Columns of the table of all sources; the last two are relative differences."""
 
+
+LINE = 120
+"""Length of a line in Markdown."""
 
 MIN_UNCERTAINTY = 1e-6
 """Uncertainty over the value below which it is not shown."""
@@ -117,14 +121,21 @@ def entries_of(compared: Sequence[Compared]) -> dict[str, Any]:
 
 
 def in_markdown(compared: Sequence[Compared]) -> str:
-    """The table of all sources, and the remarks and studies of each, in Markdown."""
-    parts = [f"{headline(compared)} {largest(compared)}", table(COLUMNS, [one.cells for one in compared])]
+    """The table of all sources, and the remarks and studies of each, in Markdown with lines of at most ``LINE``."""
+    parts = [_filled(f"{headline(compared)} {largest(compared)}"), table(COLUMNS, [one.cells for one in compared])]
     for one in compared:
-        parts.append(f"### {one.source.title}\n\n{one.source.citation}. {one.source.obtained}")
-        parts.append(f"Bar: {one.source.bar}. Ours: {one.source.method}.")
-        parts += one.answer.remarks
+        parts += [
+            f"### {one.source.title}",
+            _filled(f"{one.source.citation}. {one.source.obtained}"),
+            _filled(f"Bar: {one.source.bar}. Ours: {one.source.method}."),
+            *map(_filled, one.answer.remarks),
+        ]
         parts += [f"{study.title}:\n\n{table(study.columns, study.cells)}" for study in one.answer.studies]
     return "\n\n".join(parts) + "\n"
+
+
+def _filled(text: str) -> str:
+    return textwrap.fill(text, LINE, break_long_words=False, break_on_hyphens=False)
 
 
 def table(columns: Sequence[str], cells: Sequence[Sequence[str]]) -> str:

@@ -84,7 +84,7 @@ def answer(thorough: bool, progress: Progress) -> Answer:
     for name, (words, pad) in PADS.items():
         progress(0.1 * len(rows) / 20, f"pad with a pocket, {words}")
         bar = float(np.abs(curves["small"][_within(place)]).max()) if name == "small" else WIDE_BAR
-        rows += _rows(words, place, curves[name], _film(pad, cells), _film(pad, (cells[0] // 2, cells[1] // 2)), bar)
+        rows += _rows(words, place, curves[name], film(pad, cells), film(pad, (cells[0] // 2, cells[1] // 2)), bar)
     narrow = _peaks_on_grids(progress)
     volumes = {pad: _peaks_by_volumes(pad, studied, progress) for pad in ("small", "large")}
     varied = _varied(progress)
@@ -93,7 +93,7 @@ def answer(thorough: bool, progress: Progress) -> Answer:
         rows=tuple(rows),
         remarks=remarks,
         studies=(_grids(narrow), _volumes(studied, volumes), _ambiguities(varied)),
-        curves=tuple(_curve(words, place, curves[name], _film(pad, cells)) for name, (words, pad) in PADS.items()),
+        curves=tuple(_curve(words, place, curves[name], film(pad, cells)) for name, (words, pad) in PADS.items()),
     )
 
 
@@ -122,7 +122,8 @@ def _within(place: Array) -> Array:
     return np.asarray((place > CAVITY[0]) & (place < CAVITY[1]))
 
 
-def _film(pad: Pad, cells: tuple[int, int]) -> Solution:
+def film(pad: Pad, cells: tuple[int, int]) -> Solution:
+    """The film of a pad on a grid."""
     return solve(read_scene(pad.scene()).problem(), cells)
 
 
@@ -133,9 +134,9 @@ def _centre(film: Solution) -> tuple[Array, Array]:
     return film.grid.x / film.problem.shape.length, film.state.pressure[:, row] / 1e6
 
 
-def _peak(pad: Pad, cells: tuple[int, int]) -> float:
+def peak(pad: Pad, cells: tuple[int, int]) -> float:
     """The largest absolute pressure in the middle of the width, MPa."""
-    return float(_centre(_film(pad, cells))[1].max() + pad.cavitation / 1e6)
+    return float(_centre(film(pad, cells))[1].max() + pad.cavitation / 1e6)
 
 
 def _rows(words: str, place: Array, curve: Array, film: Solution, coarser: Solution, bar: float) -> list[Row]:
@@ -171,7 +172,7 @@ def _peaks_on_grids(progress: Progress) -> dict[tuple[int, int], float]:
     peaks = {}
     for number, cells in enumerate(GRIDS):
         progress(0.1 + 0.2 * number / len(GRIDS), f"narrow pad, {cells[0]} × {cells[1]} cells")
-        peaks[cells] = _peak(NARROW, cells)
+        peaks[cells] = peak(NARROW, cells)
     return peaks
 
 
@@ -219,7 +220,7 @@ def _varied(progress: Progress) -> dict[str, float]:
     peaks = {}
     for number, (words, pad) in enumerate(cases.items()):
         progress(0.8 + 0.2 * number / len(cases), f"narrow pad, {words}")
-        peaks[words] = _peak(pad, CELLS)
+        peaks[words] = peak(pad, CELLS)
     return peaks
 
 
@@ -238,14 +239,14 @@ def _remarks(
     narrow, converged = peaks.values(), peaks[GRIDS[-1]]
     printed = {name: float(curve.max()) for name, curve in curves.items()}
     wide = next(row.ours for row in rows if row.case == "wide pad, peak")
-    flows = boundary_flows(_film(NARROW, CELLS))
+    flows = boundary_flows(film(NARROW, CELLS))
     assert flows.inlet is not None
     assert flows.outlet is not None
     lost = abs(flows.inlet - flows.outlet - flows.low - flows.high) / flows.inlet
     nearest = min(varied, key=lambda words: abs(varied[words] - printed["small"]))
     isoviscous = _mean_difference(replace(NARROW, barus=0.0), curves["small"])
     stated = _mean_difference(NARROW, curves["small"])
-    wide_constant = _peak(replace(WIDE, barus=0.0), CELLS)
+    wide_constant = peak(replace(WIDE, barus=0.0), CELLS)
     return (
         f"Wide pad: the peaks agree, {wide:.2f} MPa against {printed['large']:.2f} MPa; finite volumes give "
         f"{_extrapolated(volumes['large']):.2f} MPa.",
@@ -269,7 +270,7 @@ def _mean_difference(pad: Pad, curve: Array) -> float:
     """The mean difference from the narrow curve where the film has reformed, x/L > 0.445, MPa."""
     place, _ = _curves()
     reformed = place > 0.445
-    x, pressure = _centre(_film(pad, CELLS))
+    x, pressure = _centre(film(pad, CELLS))
     return float((np.interp(place[reformed], x, pressure) - curve[reformed]).mean())
 
 
