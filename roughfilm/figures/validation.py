@@ -13,7 +13,7 @@ from roughfilm.validation.published import Curve, Row, Source, Verdict
 COLOURS = {Verdict.WITHIN: "#2166ac", Verdict.OUTSIDE: "#b2182b", Verdict.SUSPECT: "#e08214"}
 """Colours of the verdicts."""
 
-WIDTH, COLUMNS = 9.6, 3
+WIDTH, COLUMNS = 9.6, 4
 """Width of a figure, inches, and largest number of quantities beside each other."""
 
 MIN_DECADES = 1.5
@@ -23,13 +23,13 @@ MIN_DECADES = 1.5
 def compared_figure(source: Source, rows: Sequence[Row]) -> str:
     """For each quantity the published values and ours, and below them their difference over what is allowed."""
     quantities = list(dict.fromkeys(row.quantity for row in rows))
-    columns = min(len(quantities), COLUMNS)
-    blocks = -(-len(quantities) // columns)
+    blocks = -(-len(quantities) // COLUMNS)
+    columns = -(-len(quantities) // blocks)
     figure, axes = new_figure((WIDTH, 4.2 * blocks), 2 * blocks, columns, squeeze=False, height_ratios=[2, 1] * blocks)
     for number, quantity in enumerate(quantities):
         block, column = divmod(number, columns)
         own = [row for row in rows if row.quantity == quantity]
-        _values(axes[2 * block, column], own)
+        _values(axes[2 * block, column], own, columns)
         _differences(axes[2 * block + 1, column], own)
         axes[2 * block + 1, column].set_xlabel(source.abscissa, fontsize=9)
         if column == 0:
@@ -43,7 +43,7 @@ def compared_figure(source: Source, rows: Sequence[Row]) -> str:
     return svg(figure)
 
 
-def _values(axes: Axes, rows: Sequence[Row]) -> None:
+def _values(axes: Axes, rows: Sequence[Row], columns: int) -> None:
     series = list(dict.fromkeys(row.series for row in rows))
     colours = colormaps["viridis"](np.linspace(0, 0.85, len(series)))
     for name, colour in zip(series, colours, strict=True):
@@ -57,7 +57,7 @@ def _values(axes: Axes, rows: Sequence[Row]) -> None:
     if values.min() > 0 and values.max() > values.min() * 10**MIN_DECADES:
         axes.set_yscale("log")
     unit = rows[0].unit
-    axes.set_title(textwrap.fill(rows[0].quantity + ("" if unit == "1" else f", {unit}"), 36), fontsize=9)
+    axes.set_title(textwrap.fill(rows[0].quantity + ("" if unit == "1" else f", {unit}"), 100 // columns), fontsize=9)
     axes.tick_params(labelsize=8, labelbottom=False)
 
 

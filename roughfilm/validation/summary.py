@@ -61,9 +61,9 @@ def in_percent(relative: float) -> str:
     Examples
     --------
     >>> in_percent(0.0123), in_percent(1.2e-9)
-    ('1.2 %', '1.2e-07 %')
+    ('1.2 %', '< 0.001 %')
     """
-    return f"{100 * relative:.2g} %"
+    return "< 0.001 %" if relative < 1e-5 else f"{100 * relative:.2g} %"
 
 
 def ours_in_words(row: Row) -> str:

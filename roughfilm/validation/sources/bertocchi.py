@@ -260,8 +260,8 @@ def _remarks(
         f"Mass is conserved: inlet flow less outflow through outlet and sides is {lost:.0e} of the inlet flow.",
         f"Of all changes of the set-up, this one brings the peak nearest to the narrow curve: {nearest}, "
         f"{varied[nearest]:.2f} MPa. With constant viscosity the mean difference over the reformed film is "
-        f"{isoviscous:+.2f} MPa instead of {stated:+.2f} MPa. The wide curve is of the lubricant as stated: with "
-        f"constant viscosity its peak would be {wide_constant:.1f} MPa. That the narrow curve is that of another "
+        f"{_signed(isoviscous)} MPa instead of {_signed(stated)} MPa. The wide curve is of the lubricant as stated: "
+        f"with constant viscosity its peak would be {wide_constant:.1f} MPa. That the narrow curve is that of another "
         "lubricant is a supposition; the printed paper was not read.",
     )
 
@@ -272,6 +272,10 @@ def _mean_difference(pad: Pad, curve: Array) -> float:
     reformed = place > 0.445
     x, pressure = _centre(film(pad, CELLS))
     return float((np.interp(place[reformed], x, pressure) - curve[reformed]).mean())
+
+
+def _signed(value: float) -> str:
+    return f"{value:+.2f}".replace("-", "−")
 
 
 def _grids(narrow: dict[tuple[int, int], float]) -> Study:
@@ -302,7 +306,7 @@ def _ambiguities(varied: dict[str, float]) -> Study:
 
 SOURCE = Source(
     name="bertocchi",
-    title="Pads with one pocket that cavitates, compressible and piezoviscous, narrow and wide",
+    title="Bertocchi 2013: pad with a pocket, narrow and wide",
     citation="L. Bertocchi, D. Dini, M. Giacopini, M. T. Fowell, A. Baldini, Tribology International 67 (2013) 61-71",
     obtained="Curves digitised in ErikHansenGit/EHL (Unlicense), not read in the paper; compared at 19 stations, "
     "interpolated, and at the peak.",

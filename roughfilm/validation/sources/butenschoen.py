@@ -150,7 +150,7 @@ def _misprints(table: Entries, rows: list[Row]) -> Study:
 
 SOURCE = Source(
     name="butenschoen",
-    title="Full journal bearing of finite width, 14 eccentricities and 8 widths",
+    title="Butenschön 1976: journal bearing, 14 × 8 cases",
     citation="H. J. Butenschön, Das hydrodynamische, zylindrische Gleitlager endlicher Breite unter instationärer "
     "Belastung, thesis, Karlsruhe 1976, the basis of DIN 31652",
     obtained="Read in the tests of mboct-mbdyn-pkg (GPL-3), not in the thesis; entries stand as found there.",

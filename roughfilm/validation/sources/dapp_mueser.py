@@ -165,7 +165,7 @@ def _curve(one: Closing, exponent: float) -> Curve:
 
 SOURCE = Source(
     name="dapp_mueser",
-    title="Exponent of the flow resistance of a saddle before contact closes it",
+    title="Dapp and Müser 2015: saddle before it closes",
     citation="W. B. Dapp, M. H. Müser, EPL 109 (2015) 44001, doi:10.1209/0295-5075/109/44001",
     obtained="The abstract: resistance ~ (Lc − L)^−3.45 for the load L and the load Lc that closes the saddle, without "
     "adhesion.",

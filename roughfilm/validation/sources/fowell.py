@@ -110,7 +110,7 @@ def _reforms(x: Array, pressure: Array, start: float, end: float) -> float:
 
 SOURCE = Source(
     name="fowell",
-    title="Infinitely wide pad with one pocket that cavitates, in closed form",
+    title="Fowell 2007: pad with a pocket, closed form",
     citation="M. Fowell, A. V. Olver, A. D. Gosman, H. A. Spikes, I. Pegg, J. Tribology 129 (2007) 336-347",
     obtained="The formula, as the tests of mboct-mbdyn-pkg state it, evaluated for three cases and confirmed by "
     "quadrature of the Reynolds equation to 1e-13.",

@@ -72,7 +72,7 @@ def answer(thorough: bool, progress: Progress) -> Answer:
 
 SOURCE = Source(
     name="hertz",
-    title="Sphere on a half-space",
+    title="Hertz 1882: sphere on a half-space",
     citation="H. Hertz, J. reine angew. Math. 92 (1882) 156-171; K. L. Johnson, Contact Mechanics (1985), 4.2",
     obtained="The closed form, evaluated by the project's own function, which its tests hold to the literature.",
     method=f"the solver of the model elastic with free surroundings, on {POINTS} × {POINTS} points",

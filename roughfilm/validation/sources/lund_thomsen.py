@@ -113,7 +113,7 @@ _REMARKS = (
 
 SOURCE = Source(
     name="lund_thomsen",
-    title="Journal bearing with two axial grooves, L/D = 1: static points",
+    title="Lund and Thomsen 1978: journal with two grooves",
     citation="J. W. Lund, K. K. Thomsen, in Topics in Fluid Film Bearing and Rotor Bearing System Design and "
     "Optimization, ASME 1978, 1-28",
     obtained="Read in the literature tests of ROSS (Apache-2.0), not in the paper.",

@@ -136,7 +136,7 @@ _REMARKS = (
 
 SOURCE = Source(
     name="patir_cheng",
-    title="Flow factors of Gaussian surfaces against the fits of the average flow model",
+    title="Patir and Cheng 1978: flow factors",
     citation="N. Patir, H. S. Cheng, J. Lubrication Technology 100 (1978) 12-17 and 101 (1979) 220-230",
     obtained="The coefficients in flowFactorsPatirCheng.C of foam-extend 4.0 (GPL-3), not read in the papers.",
     method=f"homogenized cells of {POINTS} × {POINTS} points, {SEEDS} surfaces of each γ",

@@ -85,7 +85,7 @@ _REMARKS = (
 
 SOURCE = Source(
     name="raimondi_boyd",
-    title="Full journal bearing, L/D = 1, 1/2 and 1/4",
+    title="Raimondi and Boyd 1958: journal bearing",
     citation="A. A. Raimondi, J. Boyd, A Solution for the Finite Journal Bearing and its Application to Analysis and "
     "Design III, ASLE Transactions 1 (1958) 194-209",
     obtained="The table as textbooks of machine design reprint it, entered from memory, not compared with the paper; "

@@ -82,7 +82,7 @@ def _scatter(areas: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> Study:
 
 SOURCE = Source(
     name="wang_mueser",
-    title="Area of contact at which isotropic random roughness seals",
+    title="Wang and Müser 2021: contact area that seals",
     citation="A. Wang, M. H. Müser, Percolation and Reynolds Flow in Elastic Contacts of Isotropic and Anisotropic, "
     "Randomly Rough Surfaces, Tribology Letters 69 (2021), doi:10.1007/s11249-020-01378-7",
     obtained="The abstract: near 0.415, for roughness that extends beyond its roll-off.",

@@ -68,7 +68,7 @@ def answer(thorough: bool, progress: Progress) -> Answer:
 
 SOURCE = Source(
     name="westergaard",
-    title="Line contact of sinusoidal ridges",
+    title="Westergaard 1939: sinusoidal ridges",
     citation="H. M. Westergaard, J. Appl. Mech. 6 (1939) A49; K. L. Johnson, Contact Mechanics (1985), 13.2",
     obtained="The closed form, evaluated by the project's own function, which its tests hold to the literature.",
     method=f"the solver of the model elastic, on {POINTS} points a wave",
