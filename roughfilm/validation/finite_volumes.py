@@ -1,9 +1,12 @@
 """A pad with one pocket by finite volumes: a second solution that shares no code with ``roughfilm.rom.cavitation``."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.sparse
+from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
 from roughfilm.contact.foundation.arrays import Array
@@ -17,6 +20,16 @@ TOLERANCE, MAX_STEPS = 1e-9, 200
 
 LARGEST_STEP = 2e7
 """Largest change of a pressure in a step, Pa."""
+
+
+Cells = NDArray[np.intp]
+"""Numbers of cells."""
+
+Faces = tuple[Cells, Cells, Array]
+"""The cells on both sides of faces, and the conductances of these, m³/(Pa s)."""
+
+Ends = tuple[Cells, Array]
+"""The cells at an end, and the conductances to the bath, m³/(Pa s)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,7 +107,7 @@ def centre_line(pad: FinitePad, cells: tuple[int, int]) -> tuple[Array, Array]:
         merit = p / PRESSURE_UNIT + c - root
         if max(np.abs(balance).max() / unit, np.abs(merit).max()) < TOLERANCE:
             centre = p.reshape(nx, ny)
-            return x, (9 * centre[:, 0] - centre[:, 1]) / 8
+            return np.asarray(x, dtype=float), np.asarray((9 * centre[:, 0] - centre[:, 1]) / 8)
         below = scipy.sparse.diags_array((1 - p / PRESSURE_UNIT / root) / PRESSURE_UNIT)
         beside = scipy.sparse.diags_array(1 - c / root)
         matrix = scipy.sparse.block_array([[by_p / unit, by_c / unit], [below, beside]], format="csc")
@@ -110,14 +123,23 @@ def _harmonic(first: Array, second: Array) -> Array:
     return np.asarray(2 * first * second / (first + second))
 
 
-def _balances(pad, p, c, inner, ends, drift, index, dy):  # type: ignore[no-untyped-def]
+def _balances(
+    pad: FinitePad,
+    p: Array,
+    c: Array,
+    inner: Sequence[Faces],
+    ends: Sequence[Ends],
+    drift: Array,
+    index: Cells,
+    dy: float,
+) -> tuple[Array, Any, Any]:
     """The net flow out of every cell and its derivatives by the pressures and by the cavity fractions."""
     size = p.size
     mobility, density = pad.mobility(p), pad.density(p)
     density_slope = (pad.c2 - 1) * pad.c1 / (pad.c1 + p) ** 2
     mobility_slope = density_slope * np.exp(-pad.barus * p) - pad.barus * mobility
     out = np.zeros(size)
-    places: list[tuple[Array, Array, Array]] = []
+    places: list[tuple[Cells, Cells, Array]] = []
     for a, b, conductance in inner:
         mean, fall = (mobility[a] + mobility[b]) / 2, p[a] - p[b]
         flow = conductance * mean * fall
@@ -143,6 +165,6 @@ def _balances(pad, p, c, inner, ends, drift, index, dy):  # type: ignore[no-unty
     return out, _matrix(places, size), _matrix([(every, every, by_cavity), (b, a, -by_cavity[a])], size)
 
 
-def _matrix(places, size):  # type: ignore[no-untyped-def]
+def _matrix(places: Sequence[tuple[Cells, Cells, Array]], size: int) -> Any:
     rows, columns, values = (np.concatenate(part) for part in zip(*places, strict=True))
     return scipy.sparse.csc_array((values, (rows, columns)), shape=(size, size))

@@ -2,6 +2,10 @@
 
 from typing import Any
 
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.solve import Solution, solve
+from roughfilm.rom.ladder.scene import read_scene
+
 
 def pocketed_pad(
     *,
@@ -46,3 +50,10 @@ def pocketed_pad(
         "lubricant": lubricant,
         "motion": {"speed": f"{speed!r} m/s"},
     }
+
+
+def film_of(entries: dict[str, Any], cells: tuple[int, int]) -> Solution:
+    """The film of the scene with these entries, on so many cells along and across."""
+    scene = read_scene(entries)
+    assert isinstance(scene, Bearing)
+    return solve(scene.problem(), cells)

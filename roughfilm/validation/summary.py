@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 from statistics import median
 from typing import Any
 
-from roughfilm.contact.foundation.units import with_error
+from roughfilm.contact.foundation.rounding import with_error
 from roughfilm.validation.published import Answer, Row, Source, Verdict
 
 COLUMNS = ("source", "numbers", "within", "outside", "suspect", "median", "largest")

@@ -7,11 +7,10 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.quantities import boundary_flows
-from roughfilm.rom.cavitation.solve import Solution, solve
+from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.model import Progress
-from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.validation.finite_volumes import FinitePad, centre_line
-from roughfilm.validation.pads import pocketed_pad
+from roughfilm.validation.pads import film_of, pocketed_pad
 from roughfilm.validation.published import Answer, Curve, Row, Source, Study
 from roughfilm.validation.reading import published
 
@@ -124,7 +123,7 @@ def _within(place: Array) -> Array:
 
 def film(pad: Pad, cells: tuple[int, int]) -> Solution:
     """The film of a pad on a grid."""
-    return solve(read_scene(pad.scene()).problem(), cells)
+    return film_of(pad.scene(), cells)
 
 
 def _centre(film: Solution) -> tuple[Array, Array]:
@@ -139,32 +138,29 @@ def peak(pad: Pad, cells: tuple[int, int]) -> float:
     return float(_centre(film(pad, cells))[1].max() + pad.cavitation / 1e6)
 
 
-def _rows(words: str, place: Array, curve: Array, film: Solution, coarser: Solution, bar: float) -> list[Row]:
+def _rows(words: str, place: Array, curve: Array, ours: Solution, coarser: Solution, bar: float) -> list[Row]:
     """The stations and the peak of a curve, MPa."""
-    (x, ours), (_, other) = _centre(film), _centre(coarser)
-    other = np.interp(x, _centre(coarser)[0], other)
-    stations = [
-        (f"{words}, x/L = {at:.2f}", float(at), *(float(np.interp(at, x, one)) for one in (ours, other)))
-        for at in STATIONS
-    ]
-    highest = (f"{words}, peak", float(x[ours.argmax()]), float(ours.max()), float(_centre(coarser)[1].max()))
-    values = {case: float(np.interp(at, place, curve)) for case, at, _, _ in stations} | {
-        highest[0]: float(curve.max())
-    }
-    return [
-        Row(
-            case=case,
+    (x, fine), (coarse_x, coarse) = _centre(ours), _centre(coarser)
+
+    def row(case: str, at: float, published: float, value: float, other: float) -> Row:
+        return Row(
+            case=f"{words}, {case}",
             series=words,
             at=at,
             quantity=f"absolute pressure, {words}",
             unit="MPa",
-            published=values[case],
+            published=published,
             ours=value,
-            uncertainty=abs(value - coarse),
+            uncertainty=abs(value - other),
             bar=bar,
         )
-        for case, at, value, coarse in [*stations, highest]
-    ]
+
+    def station(at: float) -> Row:
+        curves = ((place, curve), (x, fine), (coarse_x, coarse))
+        return row(f"x/L = {at:.2f}", at, *(float(np.interp(at, *one)) for one in curves))
+
+    peak = row("peak", float(x[fine.argmax()]), *(float(one.max()) for one in (curve, fine, coarse)))
+    return [*map(station, STATIONS.tolist()), peak]
 
 
 def _peaks_on_grids(progress: Progress) -> dict[tuple[int, int], float]:

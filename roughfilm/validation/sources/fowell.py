@@ -6,10 +6,9 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.quantities import boundary_flows
-from roughfilm.rom.cavitation.solve import Solution, solve
+from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.model import Progress
-from roughfilm.rom.ladder.scene import read_scene
-from roughfilm.validation.pads import pocketed_pad
+from roughfilm.validation.pads import film_of, pocketed_pad
 from roughfilm.validation.published import Answer, Row, Source
 from roughfilm.validation.reading import published
 
@@ -59,7 +58,7 @@ def _numbers(printed: Mapping[str, str], cells: int) -> dict[str, float]:
     """Our numbers by column, in its unit; pressures are absolute."""
     number = {name.partition(" [")[0]: float(text) for name, text in printed.items()}
     ambient = number["ambient"]
-    scene = read_scene(
+    film = film_of(
         pocketed_pad(
             length=number["length"] * 1e-3,
             inlet=number["film_inlet"] * 1e-6,
@@ -72,9 +71,9 @@ def _numbers(printed: Mapping[str, str], cells: int) -> dict[str, float]:
                 "viscosity": f"{number['viscosity']!r} Pa*s",
                 "cavitation_pressure": f"{number['cavitation'] - ambient!r} Pa",
             },
-        )
+        ),
+        (cells, 1),
     )
-    film = solve(scene.problem(), (cells, 1))
     x, pressure = film.grid.x * 1e3, film.state.pressure[:, 0] + number["cavitation"]
     start, end = number["pocket_start"], number["pocket_start"] + number["pocket_length"]
     reforms = _reforms(x, pressure - number["cavitation"], start, end)
