@@ -98,6 +98,10 @@ def compare(wanted: list[str], out: Path, *, thorough: bool) -> list[Compared]:
             except (KeyboardInterrupt, SystemExit) as stop:
                 stop.add_note("stopped; the same command goes on")
                 raise
-            compared.append(Compared(source=one, answer=answer.answer, created=answer.created, cpu_s=answer.cpu_s))
+            compared.append(
+                Compared(
+                    source=one, answer=answer.answer, created=answer.created, cpu_s=answer.cpu_s, thorough=thorough
+                )
+            )
             spent += costs[name]
     return compared

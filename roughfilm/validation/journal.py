@@ -28,6 +28,14 @@ USUAL = Grids(wide=160, close=320)
 THOROUGH = Grids(wide=320, close=640)
 
 
+def method(grids: Grids) -> str:
+    """The model and its grids, in words."""
+    return (
+        f"reynolds_incompressible on {grids.wide} × {grids.wide} cells, from ε = {CLOSE:g} on "
+        f"{grids.close} × {grids.close}"
+    )
+
+
 def journal(eccentricity: float, width_over_diameter: float, grids: Grids) -> Result:
     """The film of a full journal bearing that turns, full at the widest gap, with pressures of at least ambient."""
     scene = read_scene(

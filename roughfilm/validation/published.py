@@ -127,7 +127,7 @@ class Source:
     title : what it is, in a line.
     citation : the publication.
     obtained : how its numbers were had.
-    method : which model answers, at which resolution.
+    methods : which model answers, at which resolution, by default and with the finest grids.
     bar : accuracy of the numbers, in words.
     abscissa : label of the abscissa of the figure.
     cost : expected CPU time, s, by default and with the finest grids.
@@ -138,7 +138,7 @@ class Source:
     title: str
     citation: str
     obtained: str
-    method: str
+    methods: tuple[str, str]
     bar: str
     abscissa: str
     cost: tuple[float, float]

@@ -22,12 +22,18 @@ MIN_UNCERTAINTY = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class Compared:
-    """A source with its answer, and when it was answered, in how much CPU time, s."""
+    """A source with its answer, and when it was answered, on the finest grids or not, in how much CPU time, s."""
 
     source: Source
     answer: Answer
     created: str
     cpu_s: float
+    thorough: bool
+
+    @property
+    def method(self) -> str:
+        """The model and its resolution, in words."""
+        return self.source.methods[self.thorough]
 
     def count(self, verdict: Verdict) -> int:
         """Number of rows with a verdict."""
@@ -104,13 +110,18 @@ def entries_of(compared: Sequence[Compared]) -> dict[str, Any]:
                 "title": one.source.title,
                 "citation": one.source.citation,
                 "obtained": one.source.obtained,
-                "method": one.source.method,
+                "method": one.method,
                 "bar": one.source.bar,
                 "created": one.created,
                 "cpu_s": one.cpu_s,
                 "remarks": list(one.answer.remarks),
                 "rows": [
-                    {**asdict(row), "difference": row.relative, "allowed": row.allowed, "verdict": row.verdict.value}
+                    {
+                        **asdict(row),
+                        "relative_difference": row.relative,
+                        "allowed": row.allowed,
+                        "verdict": row.verdict.value,
+                    }
                     for row in one.answer.rows
                 ],
                 "studies": [asdict(study) for study in one.answer.studies],
@@ -127,7 +138,7 @@ def in_markdown(compared: Sequence[Compared]) -> str:
         parts += [
             f"### {one.source.title}",
             _filled(f"{one.source.citation}. {one.source.obtained}"),
-            _filled(f"Bar: {one.source.bar}. Ours: {one.source.method}."),
+            _filled(f"Bar: {one.source.bar}. Ours: {one.method}."),
             *map(_filled, one.answer.remarks),
         ]
         parts += [f"{study.title}:\n\n{table(study.columns, study.cells)}" for study in one.answer.studies]

@@ -300,13 +300,17 @@ def _ambiguities(varied: dict[str, float]) -> Study:
     )
 
 
+def _method(cells: tuple[int, int]) -> str:
+    return f"reynolds_cavitating on {cells[0]} × {cells[1]} cells"
+
+
 SOURCE = Source(
     name="bertocchi",
     title="Bertocchi 2013: pad with a pocket, narrow and wide",
     citation="L. Bertocchi, D. Dini, M. Giacopini, M. T. Fowell, A. Baldini, Tribology International 67 (2013) 61-71",
     obtained="Curves digitised in ErikHansenGit/EHL (Unlicense), not read in the paper; compared at 19 stations, "
     "interpolated, and at the peak.",
-    method="reynolds_cavitating on 256 × 128 cells",
+    methods=(_method(CELLS), _method(FINER)),
     bar="reading error: of the wide curve 1.5 MPa, of the narrow one its largest value in the cavity, where the "
     "pressure is 0",
     abscissa="x/L",

@@ -12,6 +12,7 @@ from roughfilm.validation.journal import (
     THOROUGH,
     USUAL,
     journal,
+    method,
     scaled,
     sommerfeld_of_din,
 )
@@ -154,7 +155,7 @@ SOURCE = Source(
     citation="H. J. Butenschön, Das hydrodynamische, zylindrische Gleitlager endlicher Breite unter instationärer "
     "Belastung, thesis, Karlsruhe 1976, the basis of DIN 31652",
     obtained="Read in the tests of mboct-mbdyn-pkg (GPL-3), not in the thesis; entries stand as found there.",
-    method="reynolds_incompressible on 160 × 160 cells, from ε = 0.9 on 320 × 320",
+    methods=(method(USUAL), method(THOROUGH)),
     bar="0.5 % and half a unit of the last printed digit; the values have 3 to 6 figures",
     abscissa="eccentricity ε",
     cost=(24.0, 120.0),

@@ -163,14 +163,18 @@ def _curve(one: Closing, exponent: float) -> Curve:
     )
 
 
+def _method(grids: tuple[int, ...]) -> str:
+    points = " and ".join(f"{one} × {one}" for one in grids)
+    return f"elastic contact and direct flow through one period of z = cos x + cos y, on {points} points"
+
+
 SOURCE = Source(
     name="dapp_mueser",
     title="Dapp and Müser 2015: saddle before it closes",
     citation="W. B. Dapp, M. H. Müser, EPL 109 (2015) 44001, doi:10.1209/0295-5075/109/44001",
     obtained="The abstract: resistance ~ (Lc − L)^−3.45 for the load L and the load Lc that closes the saddle, without "
     "adhesion.",
-    method="elastic contact and direct flow through one period of z = cos x + cos y, on 256 × 256 and 512 × 512 points "
-    "(with --all to 1024 × 1024)",
+    methods=(_method(GRIDS), _method(FINER_GRIDS)),
     bar="0.05",
     abscissa="",
     cost=(7.0, 60.0),

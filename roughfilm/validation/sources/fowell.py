@@ -107,13 +107,17 @@ def _reforms(x: Array, pressure: Array, start: float, end: float) -> float:
     return float(x[first] - pressure[first] / slope)
 
 
+def _method(cells: int) -> str:
+    return f"reynolds_incompressible without side flow on {cells} cells"
+
+
 SOURCE = Source(
     name="fowell",
     title="Fowell 2007: pad with a pocket, closed form",
     citation="M. Fowell, A. V. Olver, A. D. Gosman, H. A. Spikes, I. Pegg, J. Tribology 129 (2007) 336-347",
     obtained="The formula, as the tests of mboct-mbdyn-pkg state it, evaluated for three cases and confirmed by "
     "quadrature of the Reynolds equation to 1e-13.",
-    method="reynolds_incompressible without side flow on 4000 cells",
+    methods=(_method(CELLS), _method(FINER)),
     bar="0.01 %, asked of the solver; the closed form is exact",
     abscissa="case",
     cost=(1.0, 2.0),

@@ -70,12 +70,16 @@ def answer(thorough: bool, progress: Progress) -> Answer:
     return Answer(rows=tuple(rows))
 
 
+def _method(points: int) -> str:
+    return f"the solver of the model elastic with free surroundings, on {points} × {points} points"
+
+
 SOURCE = Source(
     name="hertz",
     title="Hertz 1882: sphere on a half-space",
     citation="H. Hertz, J. reine angew. Math. 92 (1882) 156-171; K. L. Johnson, Contact Mechanics (1985), 4.2",
     obtained="The closed form, evaluated by the project's own function, which its tests hold to the literature.",
-    method=f"the solver of the model elastic with free surroundings, on {POINTS} × {POINTS} points",
+    methods=(_method(POINTS), _method(MORE_POINTS)),
     bar="1 %, asked of the solver; the closed form is exact",
     abscissa="force, N",
     cost=(3.0, 12.0),

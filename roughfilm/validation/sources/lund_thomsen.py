@@ -106,9 +106,15 @@ def _grooved(eccentricity: float, attitude: float, depth: float, cells: int) -> 
     return find("bearing", "reynolds_incompressible").solve(scene, Request(resolution=cells))
 
 
+def _method(cells: int) -> str:
+    return (
+        f"reynolds_incompressible on {cells} × {cells} cells, grooves turned until they are at right angles to the load"
+    )
+
+
 _REMARKS = (
-    "A groove is a pocket over the whole width, 50 clearances deep, whose pressure the open sides hold near ambient; "
-    "twice the depth enters the uncertainty. Stiffness and damping are not computed yet.",
+    f"A groove is a pocket over the whole width, {DEPTH:g} clearances deep, whose pressure the open sides hold near "
+    "ambient; twice the depth enters the uncertainty. Stiffness and damping are not computed yet.",
 )
 
 SOURCE = Source(
@@ -117,7 +123,7 @@ SOURCE = Source(
     citation="J. W. Lund, K. K. Thomsen, in Topics in Fluid Film Bearing and Rotor Bearing System Design and "
     "Optimization, ASME 1978, 1-28",
     obtained="Read in the literature tests of ROSS (Apache-2.0), not in the paper.",
-    method="reynolds_incompressible on 180 × 180 cells, grooves turned until they are at right angles to the load",
+    methods=(_method(CELLS), _method(FINER)),
     bar="that of the literature tests of ROSS: 0.01 in eccentricity, converted to S by the slope of the table, and 0.5 "
     "degrees",
     abscissa="eccentricity ε",

@@ -134,12 +134,17 @@ _REMARKS = (
     "The uncertainty of ours is twice the standard error of the mean over the surfaces.",
 )
 
+
+def _method(seeds: int) -> str:
+    return f"homogenized cells of {POINTS} × {POINTS} points, {seeds} surfaces of each γ"
+
+
 SOURCE = Source(
     name="patir_cheng",
     title="Patir and Cheng 1978: flow factors",
     citation="N. Patir, H. S. Cheng, J. Lubrication Technology 100 (1978) 12-17 and 101 (1979) 220-230",
     obtained="The coefficients in flowFactorsPatirCheng.C of foam-extend 4.0 (GPL-3), not read in the papers.",
-    method=f"homogenized cells of {POINTS} × {POINTS} points, {SEEDS} surfaces of each γ",
+    methods=(_method(SEEDS), _method(MORE_SEEDS)),
     bar="5 %, the upper end of the 2 to 5 % that the fits are worth",
     abscissa="nominal gap H = h/σ",
     cost=(7.0, 30.0),

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.result import Result
-from roughfilm.validation.journal import CLEARANCE_RATIO, RADIUS, SPEED, THOROUGH, USUAL, journal, scaled
+from roughfilm.validation.journal import CLEARANCE_RATIO, RADIUS, SPEED, THOROUGH, USUAL, journal, method, scaled
 from roughfilm.validation.published import Answer, Row, Source
 from roughfilm.validation.reading import half_digit, published
 
@@ -89,8 +89,8 @@ SOURCE = Source(
     citation="A. A. Raimondi, J. Boyd, A Solution for the Finite Journal Bearing and its Application to Analysis and "
     "Design III, ASLE Transactions 1 (1958) 194-209",
     obtained="The table as textbooks of machine design reprint it, entered from memory, not compared with the paper; "
-    "every flow agrees with ours to 0.5 %, which a slip of the memory would hardly do.",
-    method="reynolds_incompressible on 160 × 160 cells, from ε = 0.9 on 320 × 320",
+    "every flow agrees with ours within 0.5 %, so that slips are unlikely.",
+    methods=(method(USUAL), method(THOROUGH)),
     bar="1 % and half a unit of the last printed digit; the values have two or three figures",
     abscissa="eccentricity ε",
     cost=(5.0, 20.0),

@@ -80,14 +80,18 @@ def _scatter(areas: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> Study:
     )
 
 
+_METHOD = (
+    f"elastic contact of self-affine surfaces, H = {HURST:g}, {CUT_OFF} points in the shortest wave; mean over "
+    "surfaces and both directions, twice its standard error"
+)
+
 SOURCE = Source(
     name="wang_mueser",
     title="Wang and Müser 2021: contact area that seals",
     citation="A. Wang, M. H. Müser, Percolation and Reynolds Flow in Elastic Contacts of Isotropic and Anisotropic, "
     "Randomly Rough Surfaces, Tribology Letters 69 (2021), doi:10.1007/s11249-020-01378-7",
     obtained="The abstract: near 0.415, for roughness that extends beyond its roll-off.",
-    method="elastic contact of self-affine surfaces, H = 0.8, 8 points in the shortest wave; mean over surfaces and "
-    "both directions, twice its standard error",
+    methods=(_METHOD, _METHOD),
     bar="0.005, what 'near 0.415' is taken to mean",
     abscissa="",
     cost=(8.0, 40.0),

@@ -33,7 +33,7 @@ def test_the_json_holds_every_number_with_its_verdict(place):
     rows = [row for one in entries["sources"] for row in one["rows"]]
     assert len(rows) == 33
     assert entries["headline"].startswith("33 of 33 published numbers lie within")
-    keys = {"published", "ours", "uncertainty", "bar", "difference", "verdict", "unit", "quantity", "case"}
+    keys = {"published", "ours", "uncertainty", "bar", "relative_difference", "verdict", "unit", "quantity", "case"}
     assert all(keys <= row.keys() for row in rows)
 
 

@@ -37,7 +37,7 @@ def test_a_value_below_its_bar_has_no_relative_difference():
 def test_a_source_has_the_name_of_its_module_and_says_how_its_numbers_were_had(name):
     one = source(name)
     assert one.name == name
-    assert all((one.title, one.citation, one.obtained, one.method, one.bar))
+    assert all((one.title, one.citation, one.obtained, *one.methods, one.bar))
     assert 0 < one.cost[False] <= one.cost[True]
 
 
