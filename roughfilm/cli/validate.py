@@ -34,7 +34,7 @@ def command(
         list[str] | None,
         typer.Option("--source", metavar="NAME", help=f"Only this source; repeatable: {', '.join(names())}."),
     ] = None,
-    thorough: Annotated[bool, typer.Option("--all", help="Take the finest grids, in about six minutes.")] = False,
+    thorough: Annotated[bool, typer.Option("--all", help="Take the finest grids: some 4 minutes of CPU time.")] = False,
     as_json: AsJson = False,
 ) -> None:
     """Compare published numbers with ours: report.html, validation.json and .md, and an .svg each."""

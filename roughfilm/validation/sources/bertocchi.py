@@ -314,6 +314,6 @@ SOURCE = Source(
     bar="reading error: of the wide curve 1.5 MPa, of the narrow one its largest value in the cavity, where the "
     "pressure is 0",
     abscissa="x/L",
-    cost=(6.0, 60.0),
+    cost=(5.0, 16.0),
     answer=answer,
 )

@@ -158,6 +158,6 @@ SOURCE = Source(
     methods=(method(USUAL), method(THOROUGH)),
     bar="0.5 % and half a unit of the last printed digit; the values have 3 to 6 figures",
     abscissa="eccentricity ε",
-    cost=(24.0, 120.0),
+    cost=(19.0, 92.0),
     answer=answer,
 )

@@ -177,6 +177,6 @@ SOURCE = Source(
     methods=(_method(GRIDS), _method(FINER_GRIDS)),
     bar="0.05",
     abscissa="",
-    cost=(7.0, 60.0),
+    cost=(7.0, 25.0),
     answer=answer,
 )

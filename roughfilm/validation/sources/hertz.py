@@ -82,6 +82,6 @@ SOURCE = Source(
     methods=(_method(POINTS), _method(MORE_POINTS)),
     bar="1 %, asked of the solver; the closed form is exact",
     abscissa="force, N",
-    cost=(3.0, 12.0),
+    cost=(1.0, 2.0),
     answer=answer,
 )

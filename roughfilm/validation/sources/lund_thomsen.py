@@ -127,6 +127,6 @@ SOURCE = Source(
     bar="that of the literature tests of ROSS: 0.01 in eccentricity, converted to S by the slope of the table, and 0.5 "
     "degrees",
     abscissa="eccentricity ε",
-    cost=(4.0, 20.0),
+    cost=(3.0, 8.0),
     answer=answer,
 )

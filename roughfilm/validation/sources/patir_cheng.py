@@ -147,6 +147,6 @@ SOURCE = Source(
     methods=(_method(SEEDS), _method(MORE_SEEDS)),
     bar="5 %, the upper end of the 2 to 5 % that the fits are worth",
     abscissa="nominal gap H = h/σ",
-    cost=(7.0, 30.0),
+    cost=(7.0, 20.0),
     answer=answer,
 )

@@ -93,6 +93,6 @@ SOURCE = Source(
     methods=(method(USUAL), method(THOROUGH)),
     bar="1 % and half a unit of the last printed digit; the values have two or three figures",
     abscissa="eccentricity ε",
-    cost=(5.0, 20.0),
+    cost=(3.0, 11.0),
     answer=answer,
 )

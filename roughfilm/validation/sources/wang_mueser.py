@@ -94,6 +94,6 @@ SOURCE = Source(
     methods=(_METHOD, _METHOD),
     bar="0.005, what 'near 0.415' is taken to mean",
     abscissa="",
-    cost=(8.0, 40.0),
+    cost=(8.0, 36.0),
     answer=answer,
 )
