@@ -22,9 +22,12 @@ PAGES = [
     ROOT / "CHANGELOG.md",
     *(path for path in sorted((ROOT / "docs").rglob("*.md")) if not str(path.relative_to(ROOT)).startswith(MADE)),
 ]
+RUN = ("start", "howto")
+"""Parts of the manual whose scenes and commands are run by ``test_transcripts.py``."""
+
 README_BYTES = 12_000
 LINE_LENGTH = 120
-BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^```(\w*)[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 COMMAND = re.compile(r"\broughfilm ([a-z]+)\b")
 NAME = re.compile(r"\b(roughfilm(?:\.\w+)+)")
@@ -47,6 +50,7 @@ def _code(page: Path) -> str:
 SCENES = [
     pytest.param(text, id=f"{_named(page)}: {tomllib.loads(text)['name']}")
     for page in PAGES
+    if page.parent.name not in RUN
     for text in _blocks(page, "toml")
     if text.startswith("name =")
 ]

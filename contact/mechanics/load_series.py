@@ -2,8 +2,8 @@
 
 import math
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +12,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics.contact import Contact
+from roughfilm.contact.mechanics.discretisation import uncertainties
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
 from roughfilm.contact.mechanics.gap_map import GapMap, gap_map
 from roughfilm.contact.mechanics.store import Row, add, finished, load_contact, row_of
@@ -52,6 +53,8 @@ class ContactSeries:
     densities : distributions of pressure at the loads that are drawn.
     last : the contact at the largest load; None for a statistical model.
     gap_maps : gaps at the loads that are drawn.
+    uncertainties : uncertainties of the numbers of a row by their names, at the loads that are drawn, by load; empty
+        for a statistical model and for a surface that stands alone, whose uncertainties are unknown.
     untrusted : loads outside the range of a statistical model, Pa.
     """
 
@@ -60,6 +63,7 @@ class ContactSeries:
     densities: tuple[PressureDensity, ...]
     last: Contact | None
     gap_maps: tuple[GapMap, ...] = ()
+    uncertainties: Mapping[float, Mapping[str, float]] = field(default_factory=dict)
     untrusted: tuple[float, ...] = ()
 
 
@@ -93,6 +97,7 @@ def solved(
     rows: list[Row] = []
     densities: list[PressureDensity] = []
     gap_maps: list[GapMap] = []
+    known: dict[float, Mapping[str, float]] = {}
     before: Contact | None = None
     reused = sum(load in stored for load in loads)
     try:
@@ -114,12 +119,19 @@ def solved(
             if load in shown and before is not None:
                 densities += _histogram(before)
                 gap_maps.append(gap_map(before))
+                if inputs.settings["boundary"] == "periodic":
+                    known[load] = uncertainties(before)
     except (KeyboardInterrupt, SystemExit) as stop:
         stored_note = "; the same command goes on" if out is not None else ", none kept, as no file was named"
         stop.add_note(f"stopped: {len(rows)} of {len(loads)} loads{stored_note}")
         raise
     return ContactSeries(
-        rows=tuple(rows), reused=reused, densities=tuple(densities), last=before, gap_maps=tuple(gap_maps)
+        rows=tuple(rows),
+        reused=reused,
+        densities=tuple(densities),
+        last=before,
+        gap_maps=tuple(gap_maps),
+        uncertainties=known,
     )
 
 

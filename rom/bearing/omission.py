@@ -54,6 +54,6 @@ def inertia_omitted(scene: Bearing, quantity: str) -> Omission | None:
     change = f"by about {100 * fraction:.2g} %" if fraction < 1 else "by more than the first-order estimate can predict"
     return Omission(
         part=fraction,
-        reason=f"Re·h/L = {number:.2g}: inertia, which no model of a bearing includes, changes the "
-        f"{INERTIA_FIELDS[quantity]} {change}",
+        reason=f"reduced Reynolds number Re·h/L = {number:.2g}: inertia, which no model of a bearing includes, "
+        f"changes the {INERTIA_FIELDS[quantity]} {change}",
     )

@@ -73,7 +73,16 @@ def distinguished(error: float, other: float, uncertainty: float | None) -> bool
 
 
 def with_uncertainty(result: Result, uncertainties: Mapping[str, float]) -> Result:
-    """The result whose quantities carry the larger of their own uncertainty and the given one, in their units."""
+    """The result whose quantities carry the larger of their own uncertainty and the given one, in their units.
+
+    The same quantity of the whole width, and in units of a pressure, carries the same one over its value.
+    """
+    uncertainties = {
+        name: bar * ratio
+        for given, bar in uncertainties.items()
+        if given in result.quantities
+        for name, ratio in _same(result, given).items()
+    }
     quantities = {
         name: replace(quantity, uncertainty=max(quantity.uncertainty or 0.0, uncertainties[name]))
         if name in uncertainties
@@ -81,6 +90,13 @@ def with_uncertainty(result: Result, uncertainties: Mapping[str, float]) -> Resu
         for name, quantity in result.quantities.items()
     }
     return replace(result, quantities=quantities)
+
+
+def _same(result: Result, name: str) -> dict[str, float]:
+    """The names under which a result has a quantity in other units, with their values over that of the quantity."""
+    base, value = name.removesuffix("_per_width").removesuffix("_plus"), result.quantities[name].value
+    others = [one for one in (f"bearing_{base}", base, f"{base}_per_area") if one in result.quantities and one != name]
+    return {name: 1.0, **{one: abs(result.quantities[one].value / value) for one in others if value}}
 
 
 def _difference(result: Result, other: Result, quantity: str, effect: Effect | None, top: Result) -> Difference:

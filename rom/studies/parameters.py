@@ -32,7 +32,7 @@ class Parameter:
     ----------
     name : short name of the entry.
     values : its value in every case, shape (cases,): numbers in ``unit``, NaN where a case has none, or texts.
-    unit : unit as the study file gives it, such as "um" or "× film"; "" for a number without unit and for texts.
+    unit : unit as the study file gives it, such as "µm" or "× film"; "" for a number without unit and for texts.
     along : names of the entries that vary together with this one.
     """
 
@@ -50,7 +50,8 @@ class Parameter:
     def label(self) -> str:
         """The name with its unit, for an axis."""
         more = f" (with {', '.join(self.along)})" if self.along else ""
-        return f"{self.name}{more}, {self.unit}" if self.unit else f"{self.name}{more}"
+        name = f"{self.name}{more}".replace("_", " ")
+        return f"{name}, {self.unit}" if self.unit else name
 
     @property
     def distinct(self) -> list[Any]:
@@ -133,15 +134,17 @@ def _parameter(name: str, written: Sequence[Any], si: Sequence[Any] | None, base
         if si is not None and base not in ("", "1") and all(not isinstance(value, str) for value in si):
             unit = first if is_unit(first) and not first.startswith("×") else base
             try:
-                return Parameter(name=name, values=np.array(si, dtype=float) / to_si(f"1 {unit}", base), unit=unit)
+                return Parameter(
+                    name=name, values=np.array(si, dtype=float) / to_si(f"1 {unit}", base), unit=_shown(unit)
+                )
             except ValueError:
                 return Parameter(name=name, values=np.array(si, dtype=float), unit=base)
     return Parameter(name=name, values=np.array([_text(value) for value in written], dtype=str), unit="")
 
 
 def _shown(unit: str) -> str:
-    """A unit, or "× film" for a multiple of another entry."""
-    return unit if not unit or is_unit(unit) else f"× {unit}"
+    """A unit with "µ" for micro, or "× film" for a multiple of another entry."""
+    return re.sub(r"\bu(?=[a-zA-Z])", "µ", unit) if not unit or is_unit(unit) else f"× {unit}"
 
 
 def _parts(value: Any) -> tuple[float, str] | None:

@@ -78,7 +78,7 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
             markersize=size * (1.35 if peer else 1.0),
             markerfacecolor="none" if peer else style.colour,
             alpha=0.85,
-            label=f"{solver} (peer)" if peer else solver,
+            label=f"{solver} (other program)" if peer else solver,
         )
         if (bar := 100 * chart.truth.uncertainty) >= 100 * MIN_DRAWN_ERROR:
             ends = [max(error - bar, 100 * MIN_DRAWN_ERROR) for error in errors], [error + bar for error in errors]
@@ -91,12 +91,12 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
                 LABEL_OFFSETS[number % len(LABEL_OFFSETS)],
                 style.colour,
             )
-    axes.step(
+    drawn = {(point.model, point.resolution): point for point in chart.points}
+    axes.plot(
         [point.cpu_s for point in chart.front],
-        [_drawn(chart, point) for point in chart.front],
-        where="post",
+        [_drawn(chart, drawn[point.model, point.resolution]) for point in chart.front],
         color="black",
-        linewidth=1,
+        linewidth=1.2,
         label="Pareto front",
         zorder=0,
     )
@@ -105,7 +105,7 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
     known = 100 * chart.truth.uncertainty
     low, high = axes.get_ylim()
     if known > low:
-        axes.axhspan(low, known, color="black", alpha=0.07, linewidth=0, label="uncertainty of the truth")
+        axes.axhspan(low, known, color="black", alpha=0.07, linewidth=0, label="uncertainty of the reference")
         axes.set_ylim(low, high)
 
 

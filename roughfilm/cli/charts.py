@@ -21,6 +21,7 @@ from roughfilm.rom.studies.table import write_csv
 from roughfilm.terminal.console import AsJson, OutDirectory, make_directory, print_json, progress_bar
 from roughfilm.terminal.output_file import refuse_unwritable
 from roughfilm.terminal.results import print_all, print_left_out, table_of, written
+from roughfilm.words.scales import scale_for
 
 EXAMPLES = (
     "roughfilm charts --out charts",
@@ -61,7 +62,9 @@ def command(
             charts=list(zip(charts, figures.values(), strict=True)),
             entries=entries,
             within=WITHIN,
-            picture=embedded(out / "charts.png"),
+            without=[*without],
+            picture=embedded(out / "charts.png") if len(charts) > 1 else None,
+            truths={chart.family.name: _truth(chart) for chart in charts},
             taken=_measured_span(charts),
         )
     if as_json:
@@ -112,6 +115,12 @@ def _measured_span(charts: list[Chart]) -> dict[str, Any]:
         "commits": sorted({one["commit"] for one in taken}),
         "cpu_s": sum(point.cpu_s for chart in charts for point in chart.points),
     }
+
+
+def _truth(chart: Chart) -> str:
+    """The reference value with its uncertainty and unit."""
+    value = chart.truth.value
+    return scale_for(chart.family.unit, abs(value)).text(value, chart.truth.uncertainty * abs(value))
 
 
 def _table(chart: Chart) -> Table:

@@ -1,7 +1,6 @@
 """roughfilm compare: every model that applies on one scene, in one report."""
 
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any
@@ -14,7 +13,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.contact.foundation.writing.kinds import PAGE, entries_from, refuse_to_replace
 from roughfilm.figures.rendering import draw_apart, embedded
-from roughfilm.figures.view import views
+from roughfilm.figures.view import Plot, views
 from roughfilm.ladder import models
 from roughfilm.pages.comparison import Report, cheapest_within, write_comparison
 from roughfilm.pages.render import write_figures
@@ -170,7 +169,7 @@ def _judge(
     absent: Mapping[str, str],
     out: Path,
 ) -> Report:
-    from roughfilm.figures.base import grid_convergence, speed_against_accuracy  # matplotlib is slow to import
+    from roughfilm.figures.base import grid_convergence, speed_against_accuracy, svg  # matplotlib is slow to import
 
     view, titles = views()[scene.kind], kind_of_scene(scene).compared
     solved = [model for model in ladder if model.name in results]
@@ -184,9 +183,9 @@ def _judge(
     extrapolated = any(one.kind is ConvergenceKind.MONOTONE for study in studies.values() for one in study.values())
     floor = _uncertainty(results[top.name], grids[top.name])
     plots = {
-        **view.plots(scene, results),
-        "chart": speed_against_accuracy(chart, floor, titles, view),
-        **({"convergence": grid_convergence(studies, titles, view)} if extrapolated else {}),
+        **view.plots(scene, results, top.name),
+        "chart": Plot(svg=svg(speed_against_accuracy(chart, floor, titles, view))),
+        **({"convergence": Plot(svg=svg(grid_convergence(studies, titles, view)))} if extrapolated else {}),
     }
     report = Report(
         scene=scene,
@@ -203,9 +202,9 @@ def _judge(
         uncertainty=floor,
         convergence=studies,
         plots=plots,
-        pictures=_pictures(results, view.drawing, out),
+        picture=_picture(top, results, view.drawing, out),
     )
-    write_figures(plots, out)
+    write_figures({name: plot.svg for name, plot in plots.items() if plot.svg}, out)
     write_json(_chart_entries(report), out / "chart.json")
     return report
 
@@ -256,14 +255,12 @@ def _chart_entries(report: Report) -> dict[str, Any]:
     }
 
 
-def _pictures(results: Mapping[str, Result], drawing: str, out: Path) -> dict[str, tuple[str, str]]:
-    """By model that resolves the flow, the address of an image that holds its picture, or "" and the reason."""
-
-    def picture(name: str) -> tuple[str, str]:
-        path = out / f"flow-{name}.png"
-        drawn = draw_apart(drawing, out / RESULTS / f"{name}.h5", path)
-        return embedded(path) if drawn.available else "", drawn.detail
-
-    resolved = [name for name, result in results.items() if "vertices" in result.fields][::-1]
-    with ThreadPoolExecutor() as pool:
-        return dict(zip(resolved, pool.map(picture, resolved), strict=True))
+def _picture(model: Model, results: Mapping[str, Result], drawing: str, out: Path) -> tuple[str, str, str] | None:
+    """A model that resolves the flow, the best one if it does, and the address of its picture, or "" and the reason."""
+    resolved = [name for name, result in results.items() if "vertices" in result.fields]
+    if not resolved:
+        return None
+    name = model.name if model.name in resolved else resolved[-1]
+    path = out / f"flow-{name}.png"
+    drawn = draw_apart(drawing, out / RESULTS / f"{name}.h5", path)
+    return name, embedded(path) if drawn.available else "", drawn.detail

@@ -1,7 +1,7 @@
 """roughfilm contact: area, gap and pressures of a rough surface that is pressed against a flat plane, over the load."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from enum import StrEnum
 from pathlib import Path
@@ -36,6 +36,7 @@ from roughfilm.terminal.console import NUMERICS, OUTPUT, AsJson, ReportFile, Spa
 from roughfilm.terminal.output_file import alone, refuse_same, refuse_unwritable
 from roughfilm.terminal.ranges import loads_of
 from roughfilm.terminal.results import origin, show_result, table_of, written
+from roughfilm.words.contact import number_of
 from roughfilm.words.numbers import digits
 
 EXAMPLES = (
@@ -162,7 +163,8 @@ def command(
     def shown() -> Iterator[Table | str]:
         yield table_of([*COLUMNS], map(_cells, series.rows), title=surface.name)
 
-    summary = written(_in_words(chosen, series.rows[-1]), out, report)
+    bars = series.uncertainties.get(series.rows[-1].load, {})
+    summary = written(_in_words(chosen, series.rows[-1], bars), out, report)
     show_result(entries, shown(), as_json=as_json, reused="loads", summary=summary)
 
 
@@ -211,8 +213,11 @@ def _entries(model: ContactModel, rough: HeightMap, settings: dict[str, Any], se
     """The object of ``--json``, without the cost."""
     last = asdict(series.rows[-1])
     units = {name: UNITS.get(name, "1") for name in last}
+    bars = series.uncertainties.get(series.rows[-1].load, {})
     quantities = {
-        name: {"value": value, "unit": units[name]} for name, value in last.items() if name not in ROW_NUMERICS
+        name: {"value": value, "unit": units[name], **({"uncertainty": bars[name]} if name in bars else {})}
+        for name, value in last.items()
+        if name not in ROW_NUMERICS
     }
     quantities["plasticity_index"] = {"value": _plasticity_index(series.rows[-1]), "unit": "1"}
     quantities["composite_modulus"] = {"value": settings["composite_modulus"], "unit": "Pa"}
@@ -242,10 +247,11 @@ def _plasticity_index(row: Row) -> float:
     return row.plastic_fraction / pixels if pixels else 0.0
 
 
-def _in_words(model: ContactModel, row: Row) -> str:
+def _in_words(model: ContactModel, row: Row, uncertainties: Mapping[str, float]) -> str:
     """The contact under one load, as a sentence."""
-    gap = "" if row.mean_gap is None else f", mean gap {digits(1e6 * row.mean_gap)} µm"
-    return f"under {digits(row.load / 1e6)} MPa {digits(100 * row.area_fraction)} % of the area touch{gap}, by {model}"
+    gap = "" if row.mean_gap is None else f", mean gap {number_of(row, 'mean_gap', 1e6, uncertainties)} µm"
+    area = number_of(row, "area_fraction", 100, uncertainties)
+    return f"under {digits(row.load / 1e6)} MPa {area} % of the area touch{gap}, by {model}"
 
 
 def _cells(row: Row) -> list[str]:

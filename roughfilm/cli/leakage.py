@@ -16,6 +16,7 @@ from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
+from roughfilm.rom.seal.at_load import SealAtLoad, seal_at_load
 from roughfilm.rom.seal.leakage.curve import SealSetup, chosen_loads, columns_of, seal_setup, sealing, solved
 from roughfilm.rom.seal.leakage.joint import joint_seals
 from roughfilm.rom.seal.leakage.percolation import Threshold
@@ -34,7 +35,7 @@ from roughfilm.terminal.console import (
 from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.ranges import loads_of
 from roughfilm.terminal.results import origin, show_result, table_of, written
-from roughfilm.words.leakage import WORDS, in_words, leaks, scatter_in_words
+from roughfilm.words.leakage import WORDS, answer_in_words, in_words, leakage_scale, leaks, scatter_in_words
 from roughfilm.words.numbers import digits, finite
 
 EXAMPLES = (
@@ -53,7 +54,8 @@ def command(
         str | None,
         typer.Option(
             metavar="LOADS",
-            help="Mean pressures: a range 1kPa..1MPa:25, a list, or one (default: from the first touch until sealed).",
+            help="Mean pressures: a range 1kPa..1MPa:25, a list, or one "
+            "(default: the scene's load, and from the first touch until sealed).",
         ),
     ] = None,
     set_: Overrides = None,
@@ -81,47 +83,51 @@ def command(
         advance(0.0, "reading the surface")
         body = seal_setup(seal, out)
         thresholds = sealing(body, lambda done, words: advance(0.2 * done, words))
-        series = chosen_loads(body, thresholds) if requested is None else requested
+        own = seal.load.pressure
+        series = tuple(sorted({own, *chosen_loads(body, thresholds)})) if requested is None else requested
         rows, known = solved(body, series, workers, lambda done, words: advance(0.2 + 0.7 * done, words))
-        entries, columns = _entries(seal, body, rows, thresholds)
+        answer = seal_at_load(seal, load_contact(body.contacts, own if own in rows else series[-1]))
+        entries, columns = _entries(seal, body, rows, thresholds, answer)
         write_csv(columns, out / "table.csv")
         write_hdf5(columns, out / "table.h5")
         advance(0.95, "drawing the page")
         from roughfilm.pages.leakage import write_page  # matplotlib is slow to import
 
         entries["numerics"] |= {"loads_found": known, **spent()}
-        write_page(seal, body, rows, thresholds, entries, out)
+        write_page(seal, body, rows, thresholds, answer, entries, out)
 
     def shown() -> Iterator[Table | str]:
+        scale = leakage_scale(answer)
         cells = (
             [
                 *map(digits, (row.load * 1e-6, row.area_fraction * 100, row.mean_gap * 1e6)),
-                *(leaks(seal, row, name) for name in SOUGHT),
+                *(leaks(seal, row, name, scale) for name in SOUGHT),
             ]
             for row in rows.values()
         )
-        yield table_of(HEADS, cells, title=f"{seal.name}: leakage per metre of width, kg/h")
+        yield table_of(HEADS, cells, title=f"{seal.name}: leakage per width, {scale.unit}")
         yield from (f"{WORDS[name]}: {in_words(threshold)}" for name, threshold in thresholds.items())
         if np.ptp(body.surface.heights) > 0:
             yield scatter_in_words(body.spread)
 
     name = f"direct_{seal.flow.direction}"
-    highest = max(rows.values(), key=lambda row: row.load)
-    leak = leaks(seal, highest, name)
-    amount = leak if leak == "sealed" else f"{leak} kg/h per metre of width"
-    answer = f"along {seal.flow.direction} at {highest.load / 1e6:.4g} MPa: {amount}; {WORDS[name]}: "
-    summary = written(answer + in_words(thresholds[name]), page, out / "table.csv")
+    words = f"{answer_in_words(seal, answer)}; {WORDS[name]}: {in_words(thresholds[name])}"
+    summary = written(words, page, out / "table.csv")
     show_result(entries, shown(), as_json=as_json, reused="loads", summary=summary)
 
 
 def _entries(
-    seal: Seal, body: SealSetup, rows: Mapping[float, Row], thresholds: Mapping[str, Threshold]
+    seal: Seal, body: SealSetup, rows: Mapping[float, Row], thresholds: Mapping[str, Threshold], answer: SealAtLoad
 ) -> tuple[dict[str, Any], dict[str, Column]]:
     """The object of ``--json``, and the rows as columns of the table."""
     columns = {
         name: Column(values=values, unit=unit) for name, (unit, values) in columns_of(seal, [*rows.values()]).items()
     }
-    quantities: dict[str, Any] = {}
+    quantities: dict[str, Any] = {
+        "load": {"value": answer.load, "unit": "Pa"},
+        "sealed": {"value": float(answer.sealed), "unit": "1"},
+        **{name: asdict(getattr(answer, name)) for name in ("leakage_per_width", "area_fraction", "mean_gap")},
+    }
     for name, threshold in thresholds.items():
         quantities[f"seals_{name}"] = {"value": float(threshold.sealed is not None), "unit": "1"}
         if threshold.bracketed:

@@ -129,10 +129,12 @@ def _write(maps: Sequence[Entries], places: Mapping[str, Path], entries: Entries
         for family, place in places.items()
     }
     bad = [(one["family"], run) for one in maps for run in one["runs"] if run["outcome"] in BAD]
+    total = {outcome.value: sum(one["counts"][outcome] for one in maps) for outcome in MapOutcome}
     render(
         "stability.html.j2",
         out / "report.html",
         maps=maps,
+        total={**total, "all": sum(total.values()), "good": sum(total[outcome] for outcome in GOOD)},
         groups={one["family"]: [_as_table(*group) for group in _by_group(one).items()] for one in maps},
         outcomes=[outcome.value for outcome in MapOutcome],
         meaning=MEANING,

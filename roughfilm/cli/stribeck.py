@@ -25,7 +25,7 @@ from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.ranges import loads_of, speeds_of
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.numbers import finite
-from roughfilm.words.stribeck import lift_off, speed_scale
+from roughfilm.words.stribeck import at_own_speed, lift_off, speed_scale
 
 EXAMPLES = (
     "roughfilm stribeck scripts/examples/scenes/rough_washer.toml --out rough",
@@ -58,7 +58,7 @@ def command(
         typer.Option(
             metavar="SPEEDS",
             help="0,30rpm; 1rpm..600rpm:60 (by a constant factor); 0..2m/s:40 (evenly spaced) "
-            f"(default: {ROTATIONAL_SPEEDS}, or {SLIDING_SPEEDS} where nothing turns).",
+            f"(default: the scene's speed, and {ROTATIONAL_SPEEDS}, or {SLIDING_SPEEDS} where nothing turns).",
         ),
     ] = None,
     table: Annotated[
@@ -78,6 +78,8 @@ def command(
         )
     default = SLIDING_SPEEDS if bearing.turning_radius is None else ROTATIONAL_SPEEDS
     sliding, own = speeds_of(speeds or default, bearing.turning_radius), bearing.load_pressure
+    if speeds is None and bearing.motion.speed:
+        sliding = tuple(sorted({*sliding, abs(bearing.motion.speed)}))
     pieces = None if bearing.wide else bearing.pieces
     area = None if pieces is None else pieces * bearing.nominal_area
     pressures = (own,) if loads is None and own is not None else loads_of(loads or LOADS, area)
@@ -126,7 +128,9 @@ def command(
 
     least = min(map(_least_friction, curves), key=lambda point: point.friction_coefficient)
     at = f"{speed_scale(bearing).factor * least.speed:.4g} {speed_scale(bearing).unit}"
-    answer = f"least friction coefficient {least.friction_coefficient:.4f} at {at}"
+    answer = "; ".join(
+        [*at_own_speed(bearing, curves), f"least friction coefficient {least.friction_coefficient:.4f} at {at}"]
+    )
     summary = written(answer, page, stored.with_suffix(".csv"))
     show_result({**entries, "report": str(page)}, shown(), as_json=as_json, reused="points", summary=summary)
 

@@ -16,8 +16,7 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.studies.answers import Answer, Optimum, Sense, slice_of
 from roughfilm.rom.studies.parameters import Parameter
 from roughfilm.rom.studies.sufficient import InertiaChange, Suitability
-from roughfilm.words.sweep import Scale
-from roughfilm.words.units import scale_of
+from roughfilm.words.scales import Scale, scale_for
 
 MAX_PANELS = 6
 """Largest number of combinations of the other parameters that have a panel each."""
@@ -103,7 +102,7 @@ def over_parameters(
         if found is not None and axes and len(panels) == 1:
             drawn.axvline(found.place, color="black", linewidth=0.8, linestyle=":", label="optimum by the parabola")
         _scales(drawn, parameters, axes, np.concatenate([one.values for one in answers]))
-        drawn.set_ylabel(_axis(title, scale) if place % columns == 0 else "")
+        drawn.set_ylabel(scale.label(title) if place % columns == 0 else "")
         _limits(drawn, answers, scale)
     return _with_legend(figure, grid.flat[0], last_first=True)
 
@@ -131,7 +130,7 @@ def slices(
         mask[cases] = True
         _mark_best(axes, [along], (along,), answers[0], mask, scale)
         _scales(axes, [along], (along,), np.concatenate([one.values[cases] for one in answers]))
-        axes.set_ylabel(_axis(title, scale) if place % columns == 0 else "")
+        axes.set_ylabel(scale.label(title) if place % columns == 0 else "")
     return _with_legend(figure, grid.flat[0], last_first=True)
 
 
@@ -149,21 +148,21 @@ def several(parameters: Sequence[Parameter], shown: Sequence[tuple[Answer, str, 
         answer, title, scale = shown[place]
         _line(drawn, axes, axes, answer, cases, scale, view, True)
         _scales(drawn, axes, axes, answer.values[cases])
-        drawn.set_ylabel(_axis(title, scale), fontsize=8)
+        drawn.set_ylabel(scale.label(title), fontsize=8)
     return svg(figure)
 
 
 def profiles(lines: Mapping[str, tuple[Array, Array]], label: str, lowest: float | None = None) -> str:
     """The pressure along the film of chosen cases: by name, positions in the unit of ``label`` and pressures in Pa."""
     largest = max(float(np.abs(pressure).max()) for _, pressure in lines.values())
-    factor, unit = scale_of("Pa", largest)
+    scale = scale_for("Pa", largest)
     figure, axes = new_figure((9, 3.8))
     for (name, (x, pressure)), style in zip(lines.items(), ("-", "--", ":"), strict=False):
-        axes.plot(x, pressure / factor, style, label=name, linewidth=2)
+        axes.plot(x, pressure / scale.factor, style, label=name, linewidth=2)
     if lowest is not None:
-        axes.axhline(lowest / factor, color="black", linewidth=0.8, linestyle=(0, (1, 2)))
-    axes.set(xlabel=label, ylabel=f"pressure above ambient, {unit}")
-    axes.legend(fontsize=8)
+        axes.axhline(lowest / scale.factor, color="black", linewidth=0.8, linestyle=(0, (1, 2)))
+    axes.set(xlabel=label, ylabel=scale.label("pressure above ambient"))
+    figure.legend(loc="outside upper center", fontsize=8)
     return svg(figure)
 
 
@@ -337,14 +336,14 @@ def _maps(parameters: Sequence[Parameter], axes: Sequence[Parameter], answer: An
             where = [one.values[answer.best] for one in axes]
             kind = "largest" if answer.sense is Sense.UNCLEAR else "best"
             drawn.plot(*where, "*", color="#d62728", mec="white", ms=16, clip_on=False, label=f"{kind} case")
-            drawn.legend(fontsize=8, loc="upper right", frameon=True)
         drawn.grid(visible=False)
         drawn.set_title(name, fontsize=9)
         drawn.set(xlabel=axes[0].label, ylabel=axes[1].label if place % columns == 0 else "")
         for one, set_scale in zip(axes, (drawn.set_xscale, drawn.set_yscale), strict=True):
             if one.logarithmic:
                 set_scale("log")
-    figure.colorbar(image, ax=grid, label=_axis(title, scale), shrink=0.9)
+    figure.colorbar(image, ax=grid, label=scale.label(title), shrink=0.9)
+    figure.legend(loc="outside upper center", fontsize=8)
     return svg(figure)
 
 
@@ -372,7 +371,7 @@ def _line(
     known = cases[np.isfinite(answer.values[cases]) & np.isfinite(x[cases])]
     known = known[np.argsort(x[known], kind="stable")]
     style = view.style_of(answer.setting)
-    y, bars = answer.values[known] / scale.factor, answer.uncertainty[known] / scale.factor
+    y, bars = scale.values(answer.values[known]), answer.uncertainty[known] / scale.factor
     numeric = bool(along) and along[0].numeric
     lines = numeric and np.unique(x[known]).size == known.size
     axes.plot(
@@ -457,7 +456,3 @@ def _limits(axes: Axes, answers: Sequence[Answer], scale: Scale) -> None:
     margin = 0.6 * float(np.ptp(known))
     low, high = axes.get_ylim()
     axes.set_ylim(max(low, known.min() - margin), min(high, known.max() + margin))
-
-
-def _axis(title: str, scale: Scale) -> str:
-    return f"{title}, {scale.unit}" if scale.unit else title

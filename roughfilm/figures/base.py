@@ -6,14 +6,17 @@ import io
 import json
 import re
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.ticker import NullFormatter
 
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.figures.readings import readings
@@ -39,64 +42,86 @@ mpl.rcParams.update(
 MIN_ERROR = 1e-9
 """Smallest relative error that is drawn."""
 
+LEAST = 0.03
+"""Smallest relative error that is drawn over the uncertainty of the reference."""
+
+FRONT = "Pareto front"
+
 MAX_PIXELS = 512
 """Largest number of points of a map along a side."""
 
 
 def speed_against_accuracy(
     chart: Sequence[Point], floor: Mapping[str, float], titles: Mapping[str, str], view: View
-) -> str:
-    """Error over CPU time, a panel for each compared quantity, with the Pareto front.
+) -> Figure:
+    """Error over CPU time, a panel for each compared quantity, with the Pareto front through its points.
 
     ``floor`` is the relative uncertainty of the reference by quantity: a bar at each point spans error ± uncertainty,
-    and the front does not rank points that it does not distinguish. ``titles`` are those of the compared quantities.
+    and the front does not rank points that it does not distinguish. Errors far below it are drawn at ``LEAST`` of it.
+    ``titles`` are those of the compared quantities.
     """
     figure, panels = new_figure((10, 4.6), 1, len(titles))
     for axes, (quantity, title) in zip(panels, titles.items(), strict=True):
         known = [point for point in chart if quantity in point.error]
+        bar = floor.get(quantity, 0.0)
+        drawn = partial(_drawn, least=LEAST * bar)
         for name in dict.fromkeys(point.model for point in known):
             run = sorted((point for point in known if point.model == name), key=lambda point: point.resolution)
-            times, errors = [p.cpu_s for p in run], [_drawn(p.error[quantity]) for p in run]
+            times, errors = [p.cpu_s for p in run], [drawn(p.error[quantity]) for p in run]
             style = view.style(name)
-            if bar := floor.get(quantity, 0.0):
-                ends = [[_drawn(p.error[quantity] - bar) for p in run], [_drawn(p.error[quantity] + bar) for p in run]]
-                axes.vlines(times, *ends, color=style.colour, alpha=0.4, linewidth=1)
-            axes.plot(times, errors, style.marker, color=style.colour, label=name, alpha=0.85, markersize=6)
-            axes.annotate(f"{run[-1].resolution}", (times[-1], errors[-1]), (5, 5), textcoords="offset points", size=8)
-            if len(run) > 1:
-                axes.annotate(
-                    f"{run[0].resolution}", (times[0], errors[0]), (-12, 6), textcoords="offset points", size=8
-                )
+            if bar:
+                ends = [[drawn(p.error[quantity] + side * bar) for p in run] for side in (-1, 1)]
+                axes.vlines(times, *ends, color=style.colour, alpha=0.35, linewidth=1)
+            axes.plot(times, errors, color=style.colour, linewidth=0.8, alpha=0.6)
+            grids = f"{run[0].resolution} to {run[-1].resolution}" if len(run) > 1 else f"{run[0].resolution}"
+            axes.plot(
+                times, errors, style.marker, color=style.colour, label=f"{name}, {grids}", alpha=0.85, markersize=6
+            )
         front = pareto_front(chart, quantity, floor.get(quantity))
-        axes.step(
+        axes.plot(
             [p.cpu_s for p in front],
-            [_drawn(p.error[quantity]) for p in front],
-            where="post",
+            [drawn(p.error[quantity]) for p in front],
             color="black",
-            linewidth=1,
-            label="Pareto front",
-            zorder=0,
+            linewidth=1.2,
+            label=FRONT,
+            zorder=1.5,
         )
-        if floor.get(quantity, 0) > 0:
-            axes.axhspan(axes.get_ylim()[0], 100 * floor[quantity], color="black", alpha=0.06, zorder=-1)
-            axes.axhline(100 * floor[quantity], color="black", alpha=0.4, linewidth=0.8, linestyle=":")
+        if bar > 0:
+            axes.axhspan(drawn(0.0) / 2, 100 * bar, color="black", alpha=0.06, zorder=-1)
+            axes.axhline(100 * bar, color="black", alpha=0.4, linewidth=0.8, linestyle=":")
         axes.set(
-            xscale="log", yscale="log", xlabel="CPU time, s", ylabel=f"error in {title} relative to the reference, %"
+            xscale="log", yscale="log", xlabel="CPU time, s", ylabel=f"error in {title}\nrelative to the reference, %"
         )
-        lowest = min((_drawn(p.error[quantity]) for p in known), default=None)
+        lowest = min((drawn(p.error[quantity]) for p in known), default=None)
         if lowest is not None:
             axes.set_ylim(bottom=lowest / 2)
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=4, fontsize=8)
-    return svg(figure)
+            for axis in (axes.xaxis, axes.yaxis):
+                _whole_decades(axis)
+    _legend_above(figure)
+    return figure
 
 
-def _drawn(error: float) -> float:
-    """A relative error in per cent, at least that of ``MIN_ERROR``."""
-    return 100 * max(error, MIN_ERROR)
+def _whole_decades(axis: Axis) -> None:
+    """Label the powers of ten of a logarithmic axis, of which it shows two at least."""
+    low, high = np.log10(axis.get_view_interval())
+    if np.floor(high) - np.ceil(low) < 1:
+        axis.set_view_interval(10 ** np.floor(low), 10 ** max(np.ceil(high), np.floor(low) + 1), ignore=True)
+    axis.set_minor_formatter(NullFormatter())
 
 
-def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: Mapping[str, str], view: View) -> str:
+def _drawn(error: float, least: float) -> float:
+    """A relative error in per cent, at least the least one that is drawn."""
+    return 100 * max(error, least, MIN_ERROR)
+
+
+def _legend_above(figure: Figure) -> None:
+    """The legend of all panels above them, with each name once."""
+    found = [axes.get_legend_handles_labels() for axes in figure.axes]
+    handles = {label: handle for one in found for handle, label in zip(*one, strict=True)}
+    figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=3, fontsize=8)
+
+
+def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: Mapping[str, str], view: View) -> Figure:
     """Difference from the extrapolated value over the cell size, with lines of slope 2."""
     figure, panels = new_figure((10, 3.6), 1, len(titles))
     for axes, (quantity, title) in zip(panels, titles.items(), strict=True):
@@ -109,8 +134,8 @@ def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: M
         for name, one in drawn.items():
             sizes = [1 / grid for grid in one.grids]
             errors = [100 * abs(value / one.value - 1) for value in one.values]
-            label, style = f"{name}: order {one.order_text}", view.style(name)
-            axes.plot(sizes, errors, style.marker + "-", color=style.colour, label=label, linewidth=1.2)
+            style = view.style(name)
+            axes.plot(sizes, errors, style.marker + "-", color=style.colour, label=name, linewidth=1.2)
             slope = [errors[0] * (size / sizes[0]) ** 2 for size in sizes]
             axes.plot(sizes, slope, ":", color=style.colour, linewidth=1)
         grids = sorted({grid for one in drawn.values() for grid in one.grids})
@@ -124,8 +149,8 @@ def grid_convergence(studies: Mapping[str, Mapping[str, Convergence]], titles: M
             xlabel="mean length of a cell, periods (dotted: slope 2)",
             ylabel=f"{title}: difference from\nthe extrapolated value, %",
         )
-        axes.legend(fontsize=8)
-    return svg(figure)
+    _legend_above(figure)
+    return figure
 
 
 def new_figure(size: tuple[float, float], rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, Any]:

@@ -12,6 +12,7 @@ from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.load_series import MAX_BINS, PressureDensity
 from roughfilm.contact.mechanics.store import Row
 from roughfilm.figures.base import new_figure, size_of, surface_map, svg
+from roughfilm.figures.ticks import plain_logarithmic
 
 AREA, PLASTIC, BEFORE, UNLOADED, PLANE = "#2166ac", "#b2182b", "0.6", "#e08214", "black"
 PRESSURES = mpl.colormaps["inferno"].with_extremes(bad="#dfe4ea")
@@ -20,14 +21,15 @@ GAPS = mpl.colormaps["cividis"].with_extremes(bad="#b2182b")
 
 def areas(rows: Sequence[Row]) -> str:
     """Contact area and plastic area over the load."""
-    figure, axes = new_figure((5.4, 4.0))
+    figure, axes = new_figure((5.4, 4.2))
     loads = _loads(rows)
     _line(axes, loads, [100 * row.area_fraction for row in rows], AREA, "in contact")
     plastic = np.array([100 * row.plastic_fraction for row in rows])
     if plastic.any():
         _line(axes, loads, np.where(plastic > 0, plastic, np.nan), PLASTIC, "plastic")
-        axes.legend()
+    figure.legend(loc="outside upper center", ncols=2)
     axes.set(xscale="log", yscale="log", xlabel="load, MPa", ylabel="fraction of the nominal area, %")
+    plain_logarithmic(axes.xaxis, axes.yaxis)
     return svg(figure)
 
 
@@ -36,24 +38,26 @@ def mean_gaps(rows: Sequence[Row]) -> str:
     known = [row for row in rows if row.mean_gap is not None]
     if not known:
         return ""
-    figure, axes = new_figure((5.4, 4.0))
+    figure, axes = new_figure((5.4, 4.2))
     _line(axes, _loads(known), [1e6 * (row.mean_gap or 0.0) for row in known], AREA, "mean gap")
     axes.set(xscale="log", ylim=(0, None), xlabel="load, MPa", ylabel="mean gap, µm")
+    plain_logarithmic(axes.xaxis)
     return svg(figure)
 
 
 def maps(contact: Contact) -> str:
     """Pressure and gap over the surface."""
     width, height = size_of(contact)
-    figure, panels = new_figure((11, min(5.2, 1.1 + 4.4 * height / width)), 1, 2)
+    figure, panels = new_figure((11, min(5.2, 1.0 + 4.0 * height / width)), 1, 2)
+    figure.set_layout_engine("compressed", w_pad=0.12)
     pressure = np.where(contact.in_contact, contact.pressure, np.nan) / 1e6
     image = surface_map(panels[0], pressure, size_of(contact), cmap=PRESSURES, vmin=0, vmax=_top(contact) / 1e6)
-    figure.colorbar(image, ax=panels[0], label="pressure, MPa", shrink=0.9)
+    figure.colorbar(image, ax=panels[0], label="pressure, MPa (grey: no contact)")
     gap = np.where(contact.in_contact, np.nan, contact.gap) * 1e6
     open_ = gap[np.isfinite(gap)]
     top = float(np.percentile(open_, 99.9)) if open_.size else 1.0
     image = surface_map(panels[1], gap, size_of(contact), cmap=GAPS, vmin=0, vmax=top or 1.0)
-    figure.colorbar(image, ax=panels[1], label="gap, µm", shrink=0.9)
+    figure.colorbar(image, ax=panels[1], label="gap, µm (red: contact)")
     return svg(figure)
 
 
@@ -65,25 +69,25 @@ def pressures(spreads: Sequence[PressureDensity], hardness: float) -> str:
     figure, axes = new_figure((11, 3.6))
     colours = mpl.colormaps["viridis"](np.linspace(0.0, 0.85, len(drawn)))
     for spread, colour in zip(drawn, colours, strict=True):
-        density = np.where(spread.density > 0, spread.density, np.nan) * 1e9
+        density = np.where(spread.density > 0, spread.density, np.nan) * 1e6
         axes.plot(
-            spread.pressure / 1e9,
+            spread.pressure / 1e6,
             density,
             ".-" if density.size <= MAX_BINS else "-",
             color=colour,
             label=f"{float(f'{spread.load / 1e6:.3g}'):g} MPa",
         )
     if math.isfinite(hardness):
-        axes.axvline(hardness / 1e9, color="black", linestyle=":", linewidth=1)
-    top = max(float(spread.density.max()) for spread in drawn) * 1e9
+        axes.axvline(hardness / 1e6, color="black", linestyle=":", linewidth=1)
+    top = max(float(spread.density.max()) for spread in drawn) * 1e6
     axes.set_yscale("log")
     axes.set(
         ylim=(max(axes.get_ylim()[0], top * 1e-6), None),
         xlim=(0, None),
-        xlabel="pressure, GPa" + (" (dotted: hardness)" if math.isfinite(hardness) else ""),
-        ylabel="density of the\nnominal area, 1/GPa",
+        xlabel="pressure, MPa" + (" (dotted: hardness)" if math.isfinite(hardness) else ""),
+        ylabel="density of the\nnominal area, 1/MPa",
     )
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), title="load")
+    figure.legend(loc="outside right upper", title="load")
     return svg(figure)
 
 
@@ -102,7 +106,7 @@ def section(contact: Contact) -> str:
         upper.plot(x, (heights[:, row] - plane) * 1e6, color=colour, label=label, linewidth=width)
     upper.axhline(0, color=PLANE, linewidth=1, linestyle="--", label="plane")
     upper.set_ylabel("height above the plane, µm")
-    upper.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    figure.legend(*upper.get_legend_handles_labels(), ncols=4, loc="outside upper center")
     lower.fill_between(x, contact.pressure[:, row] / 1e6, color=PLASTIC, linewidth=0, step="mid")
     lower.set(ylim=(0, 1.08 * _top(contact) / 1e6), ylabel="pressure, MPa", xlabel="x, µm")
     upper.set_xlim(x[0], x[-1])

@@ -1,6 +1,7 @@
 """Figures of the effects of a bearing, switched on one after the other, and each switched off alone."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -20,24 +21,37 @@ ALONE_HEIGHT = 0.18
 """Height of the bars of effects that are switched off alone, in rows."""
 
 
-def waterfall(study: EffectStudy, columns: Mapping[str, Shown], beside: Mapping[str, Amount]) -> str:
-    """A panel for each quantity, a row for each effect; ``beside`` has the contributions of inertia."""
-    rows = ["plain film", *(one.name for one in study.contributions), "all of it", *(["inertia"] if beside else [])]
-    figure = Figure(figsize=(3.1 + 2.6 * len(columns), 1.3 + 0.42 * len(rows)), layout="constrained")
-    panels = figure.subplots(1, len(columns), sharey=True, squeeze=False)[0]
-    for axes, (name, how) in zip(panels, columns.items(), strict=True):
-        _panel(axes, study, name, how, beside.get(name))
-        axes.set_xlabel(f"{how.title}, {how.unit}")
+@dataclass(frozen=True, kw_only=True)
+class Panel:
+    """A quantity of a study that is drawn, at a film or under a load in words, with the contribution of inertia."""
+
+    study: EffectStudy
+    name: str
+    how: Shown
+    where: str
+    beside: Amount | None = None
+
+
+def waterfall(panels: Sequence[Panel]) -> str:
+    """A panel for each quantity, a row for each effect; the studies have the same effects."""
+    names = [one.name for one in panels[0].study.contributions]
+    inertia = any(panel.beside is not None for panel in panels)
+    rows = ["plain film", *names, "all effects", *(["inertia, not counted"] if inertia else [])]
+    figure = Figure(figsize=(10.4, 1.6 + 0.42 * len(rows)), layout="constrained")
+    for axes, panel in zip(figure.subplots(1, len(panels), sharey=True, squeeze=False)[0], panels, strict=True):
+        _panel(axes, panel.study, panel.name, panel.how, panel.beside)
+        axes.set_xlabel(f"{panel.how.title}, {panel.how.unit}")
+        axes.set_title(panel.where, fontsize=9)
         axes.grid(visible=False, axis="y")
-    panels[0].set_yticks(range(len(rows)), rows)
-    panels[0].set_ylim(len(rows) - 0.4, -0.6)
+        axes.set_yticks(range(len(rows)), rows)
+        axes.set_ylim(len(rows) - 0.4, -0.6)
     handles: list[Patch | Line2D] = [
         Patch(color=MORE, label="switched on next: increase"),
         Patch(color=LESS, label="switched on next: decrease"),
-        Patch(facecolor="none", edgecolor="0.25", label="switched off alone: from without it to all effects"),
+        Patch(facecolor="none", edgecolor="0.25", label="switched off alone"),
         Line2D([], [], color="0.25", linewidth=1, marker="|", label="uncertainty"),
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=8)
+    figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=9)
     return svg(figure)
 
 

@@ -4,9 +4,11 @@ from dataclasses import replace
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.ticker import LogLocator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure, surface_map, svg
+from roughfilm.figures.ticks import plain_logarithmic
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flux import flux
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, relative_row, relative_rows
@@ -17,20 +19,23 @@ FLOWS = mpl.colormaps["magma"].with_extremes(bad="#dfe4ea")
 DRAWN_POINTS = 600
 """Gaps at which the interpolation is drawn."""
 
+MAX_LINEAR = 20.0
+"""Factor above which the axis is logarithmic beyond 1."""
+
 FLUX_RANGE = 1e-4
 """Ratio of the smallest flux with a colour of its own to the greatest."""
 
 PANELS = {
-    "pressure flow": ((0, "A₁₁/ĥ³"), (1, "A₂₂/ĥ³"), (2, "A₁₂/ĥ³")),
-    "shear flow": ((3, "B₁/ĥ"), (4, "B₂/ĥ")),
-    "friction": ((5, "d ĥ"), (6, "e ĥ")),
+    "flow by pressure": ((0, "along x, A₁₁/ĥ³"), (1, "along y, A₂₂/ĥ³"), (2, "crossed, A₁₂/ĥ³")),
+    "flow by sliding along x": ((3, "along x, B₁/ĥ"), (4, "along y, B₂/ĥ")),
+    "friction": ((5, "mean of 1/h, d ĥ"), (6, "deflected flow, e ĥ")),
 }
 """Which entries of a row each panel shows."""
 
 
 def curves(table: FactorTable) -> str:
     """Factors over the mean gap: points with their uncertainty, the interpolation, and the asymptote."""
-    figure, panels = new_figure((11.4, 3.9), 1, len(PANELS))
+    figure, panels = new_figure((11.4, 4.4), 1, len(PANELS))
     gaps = np.array([point.mean_gap for point in table.points])
     rows = np.array([relative_row(point.factors) for point in table.points])
     uncertainties = np.array(
@@ -46,9 +51,15 @@ def curves(table: FactorTable) -> str:
         if any(point.contact > 0 for point in table.points):
             axes.axvline(1e6 * table.peak, color="0.6", linewidth=0.8, linestyle="--")
         axes.set_xscale("log")
+        if rows[:, [index for index, _ in drawn]].max() > MAX_LINEAR:
+            axes.set_yscale("symlog", linthresh=1.0)
+            axes.yaxis.set_major_formatter("{x:g}")
+            axes.set_ylim(bottom=min(-0.2, 1.2 * rows[:, [index for index, _ in drawn]].min()))
+        axes.xaxis.set_major_locator(LogLocator(numticks=5))
+        plain_logarithmic(axes.xaxis)
         axes.set_title(title, fontsize=10)
         axes.set(xlabel="mean gap ĥ, µm", ylabel="relative to a smooth film")
-        axes.legend()
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), fontsize=9)
     return svg(figure)
 
 
@@ -75,21 +86,20 @@ def pressures(table: AsperityTable) -> str:
 
 
 def maps(gap: Array, spacing: tuple[float, float], correctors: Array, sealed: tuple[bool, bool]) -> str:
-    """Maps of the gap, and of the flux under a pressure gradient along x and along y."""
+    """Maps of the gap, and of the flow under a pressure gradient along x and along y over that of a smooth film."""
     width, height = (count * length for count, length in zip(gap.shape, spacing, strict=True))
-    figure, panels = new_figure((11.4, min(6.0, 1.6 + 3.6 * height / width)), 1, 3)
+    figure, panels = new_figure((11.4, min(6.0, 1.6 + 3.3 * height / width)), 1, 3)
+    figure.set_layout_engine("compressed", w_pad=0.12)
     shown = np.where(gap > 0, gap, np.nan) * 1e6
     image = surface_map(panels[0], shown, (width, height), cmap=GAPS, vmin=0)
-    figure.colorbar(image, ax=panels[0], label="gap, µm (red: contact)", location="bottom", shrink=0.9)
-    for direction, axis in enumerate("xy"):
-        axes = panels[1 + direction]
-        axes.set_title(f"driven along {axis}" + (": sealed" if sealed[direction] else ""), fontsize=10)
-        speed = np.hypot(*flux(gap, spacing, correctors[direction], direction))
-        speed[gap == 0] = np.nan
-        if sealed[direction]:
-            speed[:] = np.nan
-        top = float(np.nanmax(speed)) if np.isfinite(speed).any() else 1.0
-        norm = mpl.colors.LogNorm(vmin=FLUX_RANGE * top, vmax=top, clip=True)
-        image = surface_map(axes, speed, (width, height), cmap=FLOWS, norm=norm)
-        figure.colorbar(image, ax=axes, label="flux, m³ (per unit gradient)", location="bottom", shrink=0.9)
+    panels[0].set_title("gap", fontsize=10)
+    figure.colorbar(image, ax=panels[0], label="gap, µm (red: contact)", location="bottom")
+    speeds = [np.hypot(*flux(gap, spacing, correctors[axis], axis)) / gap.mean() ** 3 for axis in (0, 1)]
+    top = max(float(speed.max()) for speed, closed in zip(speeds, sealed, strict=True) if not closed or all(sealed))
+    norm = mpl.colors.LogNorm(vmin=FLUX_RANGE * top, vmax=top, clip=True) if top > 0 else None
+    for axes, axis, speed, closed in zip(panels[1:], "xy", speeds, sealed, strict=True):
+        axes.set_title(f"flow driven along {axis}" + (": sealed" if closed else ""), fontsize=10)
+        flowing = np.where((gap > 0) & ~np.array(closed), speed, np.nan)
+        image = surface_map(axes, flowing, (width, height), cmap=FLOWS, norm=norm)
+    figure.colorbar(image, ax=panels[1:].tolist(), label="flow over that of a smooth film", location="bottom")
     return svg(figure)

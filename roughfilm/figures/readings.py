@@ -45,9 +45,9 @@ def readings(figure: Figure) -> list[dict[str, Any]]:
         series = [one for entry in _series(axes) if (one := _drawn(axes, box, *entry))]
         maps = [one for artist in (*axes.images, *axes.collections) if (one := _map(axes, artist))]
         if series or maps:
-            entry = {"box": [round(side, 1) for side in box], "title": axes.get_title()}
-            entry |= {"x": _axis(axes.xaxis, figure), "y": _axis(axes.yaxis, figure), "series": series}
-            found.append(entry | ({"map": maps[-1]} if maps else {}))
+            panel: dict[str, Any] = {"box": [round(side, 1) for side in box], "title": axes.get_title()}
+            panel |= {"x": _axis(axes.xaxis, figure), "y": _axis(axes.yaxis, figure), "series": series}
+            found.append(panel | ({"map": maps[-1]} if maps else {}))
     return found
 
 
@@ -69,26 +69,27 @@ def _axis(axis: Axis, figure: Figure) -> dict[str, Any]:
     grouper, shared = (own.get_shared_x_axes(), "xaxis") if axis is own.xaxis else (own.get_shared_y_axes(), "yaxis")
     labels = [axis.get_label_text(), *(getattr(one, shared).get_label_text() for one in grouper.get_siblings(own))]
     labels.append(figure.get_supxlabel() if axis is own.xaxis else figure.get_supylabel())
-    name, unit = name_and_unit(next(filter(None, labels), axis.axis_name))
+    name, unit = name_and_unit(next(filter(None, labels), "x" if axis is own.xaxis else "y"))
     places, texts = axis.get_major_locator(), axis.get_major_formatter()
     entry: dict[str, Any] = {"name": name, "unit": unit, "scale": axis.get_scale()}
     entry["limits"] = [_short(limit, 12) for limit in axis.get_view_interval()]
     if isinstance(places, FixedLocator) and isinstance(texts, FixedFormatter | FuncFormatter):
-        names = [(float(place), texts(place, i)) for i, place in enumerate(places.locs)]
+        names = [(float(place), texts(place, i)) for i, place in enumerate(axis.get_majorticklocs())]
         entry["places"] = [[_short(place), text] for place, text in names if text]
     return entry
 
 
 def _series(axes: Axes) -> Iterator[tuple[str, Array, Array, Array | None, str]]:
     """Label, x, y, uncertainty and its axis of each series that is drawn in the coordinates of the axes."""
-    barred = {}
+    barred: dict[Any, tuple[str, Array | None, str] | None] = {}
     for container in axes.containers:
         if isinstance(container, ErrorbarContainer):
             line, caps, bars = container
             label, of = _label(container), "y" if container.has_yerr else "x"
             half = _half_lengths(bars, "xy".index(of))
             if line is None:
-                middle = np.array([segment.mean(axis=0) for one in bars for segment in one.get_segments()])
+                segments = [segment.mean(axis=0) for one in bars for segment in one.get_segments()]
+                middle = np.array(segments).reshape(-1, 2)
                 yield label, middle[:, 0], middle[:, 1], half, of
             else:
                 barred[line] = (label, half, of)
@@ -96,18 +97,25 @@ def _series(axes: Axes) -> Iterator[tuple[str, Array, Array, Array | None, str]]
         elif isinstance(container, BarContainer):
             yield _bars(container)
     for line in axes.lines:
-        if line.get_visible() and line.get_transform() == axes.transData and barred.get(line, ()) is not None:
-            x, y = (np.ma.filled(np.ma.asarray(part, float), np.nan) for part in line.get_data(orig=False))
-            label, half, of = barred.get(line, (_label(line), None, "y"))
-            yield label, x, y, half if half is not None and half.size == x.size else None, of
+        known = barred.get(line, (_label(line), None, "y"))
+        if line.get_visible() and line.get_transform() == axes.transData and known is not None:
+            x, y = (_filled(part) for part in line.get_data(orig=False))
+            label, bars_of_line, of = known
+            complete = bars_of_line is not None and bars_of_line.size == x.size
+            yield label, x, y, bars_of_line if complete else None, of
     for collection in axes.collections:
         if isinstance(collection, PathCollection) and collection.get_offset_transform() == axes.transData:
-            places = np.ma.filled(np.ma.asarray(collection.get_offsets(), float), np.nan)
+            places = _filled(collection.get_offsets())
             yield _label(collection), places[:, 0], places[:, 1], None, "y"
     for patch in axes.patches:
         if isinstance(patch, StepPatch):
-            steps = patch.get_data()
-            yield _label(patch), (steps.edges[1:] + steps.edges[:-1]) / 2, np.asarray(steps.values, float), None, "y"
+            values, edges, _ = patch.get_data()
+            yield _label(patch), (edges[1:] + edges[:-1]) / 2, _filled(values), None, "y"
+
+
+def _filled(values: Any) -> Array:
+    """Numbers with NaN for what is masked."""
+    return np.asarray(np.ma.filled(np.ma.asarray(values, np.float64), np.nan))
 
 
 def _bars(container: BarContainer) -> tuple[str, Array, Array, None, str]:
@@ -149,7 +157,10 @@ def _drawn(
 
 def _map(axes: Axes, artist: Any) -> dict[str, Any]:
     """The values of a picture or mesh on cells of the axes; empty if it is none or has no values."""
-    if not isinstance(artist, AxesImage | QuadMesh) or artist.get_array() is None or artist.get_array().ndim > 2:
+    if not isinstance(artist, AxesImage | QuadMesh):
+        return {}
+    values = _filled([] if artist.get_array() is None else artist.get_array())
+    if values.ndim > 2 or not values.size:
         return {}
     box = axes.get_window_extent()
     columns = MAX_CELLS if box.width > box.height else max(2, round(MAX_CELLS * box.width / box.height))
@@ -157,7 +168,6 @@ def _map(axes: Axes, artist: Any) -> dict[str, Any]:
     across, down = (np.arange(columns) + 0.5) / columns, 1 - (np.arange(rows) + 0.5) / rows
     wanted = np.stack(np.meshgrid(across, down), axis=-1).reshape(-1, 2)
     to_axes = axes.transData + axes.transAxes.inverted()
-    values = np.ma.filled(np.ma.asarray(artist.get_array(), float), np.nan)
     if isinstance(artist, AxesImage):
         left, right, bottom, top = artist.get_extent()
         x, y = to_axes.inverted().transform(wanted).T
@@ -168,7 +178,8 @@ def _map(axes: Axes, artist: Any) -> dict[str, Any]:
         found = np.full(len(wanted), np.nan)
         found[within] = values[i[within].astype(int), j[within].astype(int)]
     else:
-        corners = to_axes.transform(artist.get_coordinates().reshape(-1, 2)).reshape(artist.get_coordinates().shape)
+        places = np.asarray(artist.get_coordinates())
+        corners = to_axes.transform(places.reshape(-1, 2)).reshape(places.shape)
         found = _of_mesh(corners, values.reshape(-1), wanted)
     if not np.isfinite(found).any():
         return {}

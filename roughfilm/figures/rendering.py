@@ -11,7 +11,7 @@ import sys
 import zipfile
 import zlib
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.contact.foundation.files import replacing
@@ -65,7 +65,7 @@ def _scene(plotter: "pyvista.Plotter") -> bytes:
 
     vtk_js.initialize_serializers()
     context = vtk_js.SynchronizationContext()
-    window = plotter.render_window
+    window: Any = plotter.render_window
     window.Render()
     camera = plotter.renderer.GetActiveCamera()
     state = vtk_js.serialize(None, window, vtk_js.reference_id(window), context, 1)

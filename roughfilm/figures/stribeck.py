@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure
+from roughfilm.figures.ticks import plain_logarithmic
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve
 from roughfilm.words.stribeck import SpeedScale
@@ -43,12 +44,13 @@ class Drawn:
     contact: Array
 
 
-def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | None) -> Figure:
+def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | None, own: float) -> Figure:
     """Friction coefficient, separation over that of the first touch, and load on the asperities, over speed.
 
-    Without asperities, ``touching`` is None, and the panels show the least film and the peak pressure.
+    Without asperities, ``touching`` is None, and the panels show the least film and the peak pressure. ``own`` is the
+    speed of the scene, m/s.
     """
-    figure, (friction, gap, share) = new_figure((11.4, 4.0), 1, 3)
+    figure, (friction, gap, share) = new_figure((11.4, 4.4), 1, 3)
     panels: list[tuple[Axes, str, float, str, float]] = [
         (friction, "friction_coefficient", 0.0, "coefficient of friction", 1)
     ]
@@ -63,7 +65,7 @@ def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | 
         for axes, name, zero, label, factor in panels:
             values = factor * np.array([getattr(point, name) - zero for point in curve.points])
             errors = factor * np.array([point.uncertainty.get(name, np.nan) for point in curve.points])
-            axes.plot(speeds, values, color=colour, linewidth=1.4, label=f"{curve.pressure / 1e6:.4g} MPa")
+            axes.plot(speeds, values, color=colour, linewidth=1.4, label=f"load {curve.pressure / 1e6:.4g} MPa")
             known = np.isfinite(errors)
             axes.errorbar(
                 speeds[known],
@@ -82,8 +84,13 @@ def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | 
     if min(swept) > 0 and max(swept) > LOGARITHMIC_RATIO * min(swept):
         for axes in (friction, gap, share):
             axes.set_xscale("log")
+            plain_logarithmic(axes.xaxis)
     friction.set_yscale("log")
-    friction.legend(fontsize=8, title="load", loc="upper right")
+    plain_logarithmic(friction.yaxis)
+    if min(swept) <= own <= max(swept):
+        for axes in (friction, gap, share):
+            axes.axvline(own * scale.factor, color="0.35", linewidth=1, linestyle="--", zorder=0)
+    figure.legend(*friction.get_legend_handles_labels(), fontsize=9, loc="outside upper center", ncols=6)
     if touching is not None:
         gap.axhline(0, color="black", linewidth=0.8, linestyle="--")
     return figure
@@ -91,7 +98,7 @@ def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | 
 
 def asperity_table(asperities: Asperities) -> Figure:
     """Contact pressure, contact area and flow factors of the asperities over the separation."""
-    figure, (contact, pressed, sheared) = new_figure((11.4, 3.9), 1, 3)
+    figure, (contact, pressed, sheared) = new_figure((11.4, 4.3), 1, 3)
     touching = asperities.touching
     lowest = asperities.separation_at(min(asperities.largest_pressure, MAX_CONTACT_PRESSURE))
     near = np.linspace(lowest, touching, DRAWN_SEPARATIONS)
@@ -105,13 +112,17 @@ def asperity_table(asperities: Asperities) -> Figure:
     beside.plot(1e6 * near, 100 * areas, color=COLOURS[2])
     beside.set_ylabel("area in contact, %", color=COLOURS[2])
     beside.grid(visible=False)
+    beside.spines["right"].set_visible(True)
     factors, mean = asperities(alpha), asperities.mean_gap(alpha)
-    pressure = {"A₁₁/ĥ³": factors.along, "A₂₂/ĥ³": factors.across, "A₁₂/ĥ³": factors.cross}
-    drag = {"B₁/ĥ": factors.drag, "B₂/ĥ": factors.drag_across}
+    pressure = {"along, A₁₁/ĥ³": factors.along, "across, A₂₂/ĥ³": factors.across, "crossed, A₁₂/ĥ³": factors.cross}
+    drag = {"along, B₁/ĥ": factors.drag, "across, B₂/ĥ": factors.drag_across}
+    pressed.set_title("flow by pressure", fontsize=10)
+    sheared.set_title("flow by shear", fontsize=10)
+    contact.set_title("asperities", fontsize=10)
     for axes, drawn, power in ((pressed, pressure, 3), (sheared, drag, 1)):
         for (label, values), colour in zip(drawn.items(), COLOURS, strict=False):
             axes.plot(1e6 * alpha, values / mean**power, color=colour, label=label)
-        axes.legend(fontsize=8)
+        axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2)
         axes.set_ylabel("relative to a smooth film")
         axes.axvline(1e6 * touching, color="black", linewidth=0.8, linestyle="--")
     for axes in (contact, pressed, sheared):
@@ -120,21 +131,26 @@ def asperity_table(asperities: Asperities) -> Figure:
 
 
 def films(drawn: Sequence[Drawn]) -> Figure:
-    """Film pressure and contact pressure over the bearing, a row for each speed."""
-    figure, panels = new_figure((11.4, 3.3 * len(drawn)), len(drawn), 2, squeeze=False)
-    tops = [max(float(one.max()) for one in each) for each in ([d.film for d in drawn], [d.contact for d in drawn])]
-    for row, one in zip(panels, drawn, strict=True):
-        for axes, values, top, what, colours in zip(
-            row, (one.film, one.contact), tops, ("film", "contact"), ("viridis", "magma"), strict=True
-        ):
+    """Film pressure over the bearing, a row for each speed, and beside it contact pressure where there is any."""
+    kinds = ["film", *(["contact"] if any(one.contact.any() for one in drawn) else [])]
+    figure, panels = new_figure(
+        (11.4 if len(kinds) > 1 else 7.0, 3.3 * len(drawn)), len(drawn), len(kinds), squeeze=False
+    )
+    for column, (kind, colours) in enumerate(zip(kinds, ("viridis", "magma"), strict=False)):
+        maps = [getattr(one, kind) for one in drawn]
+        least, top = min(0.0, *(float(one.min()) for one in maps)), max(float(one.max()) for one in maps)
+        for axes, one, values in zip(panels[:, column], drawn, maps, strict=True):
+            if not values.any():
+                axes.set_axis_off()
+                axes.text(0.5, 0.5, f"{one.title}:\nno {kind} pressure", ha="center", transform=axes.transAxes)
+                continue
+            axes.set_title(f"{one.title}: {kind}", fontsize=10)
             if one.x.shape[1] == 1:
                 axes.plot(1e3 * one.x, values / 1e6, color=COLOURS[0])
-                axes.set_title(f"{one.title}: {what}", fontsize=10)
-                axes.set(xlabel="along the sliding, mm", ylabel="pressure, MPa")
+                axes.set(xlabel="along the sliding, mm", ylabel=f"{kind} pressure, MPa")
                 continue
             axes.grid(visible=False)
             axes.set_aspect("equal")
-            least = min(0.0, float(values.min()))
             image = axes.pcolormesh(
                 1e3 * one.x,
                 1e3 * one.y,
@@ -142,10 +158,9 @@ def films(drawn: Sequence[Drawn]) -> Figure:
                 shading="gouraud",
                 cmap=mpl.colormaps[colours],
                 vmin=least / 1e6,
-                vmax=top / 1e6 if top > least else 1.0,
+                vmax=top / 1e6,
                 rasterized=True,
             )
-            axes.set_title(f"{one.title}: {what}", fontsize=10)
-            axes.set(xlabel="mm", ylabel="mm")
-            figure.colorbar(image, ax=axes, label="MPa", shrink=0.85)
+            axes.set(xlabel="x, mm", ylabel="y, mm")
+            figure.colorbar(image, ax=axes, label=f"{kind} pressure, MPa", shrink=0.85)
     return figure

@@ -22,34 +22,35 @@ def errors_in_order(
     """
     kind, groups = kind_of_sweep(sweep), views()[sweep.kind].groups(sweep.given)
     named = set[str]()
-    figure, panels = new_figure((10, 0.6 + 2.6 * len(settings)), len(settings), len(kind.compared), squeeze=False)
-    for line, setting in zip(panels, settings, strict=True):
-        for axes, (quantity, title) in zip(line, kind.compared.items(), strict=True):
-            if (setting, quantity) not in orderings:
-                axes.set_axis_off()
-                axes.set_title(f"{setting}: {title}, nothing to order", fontsize=9)
-                continue
-            law = orderings[setting, quantity]
-            with np.errstate(divide="ignore", invalid="ignore"):
-                number = product(sweep.features(), law.powers)
-            error = 100 * relative_error(sweep, setting, reference.setting, quantity)
-            error[~loaded(sweep, reference.setting)] = np.nan
-            certain = interval(sweep, setting, reference, quantity)[0] > 0
-            for place, ((group, rows), sign) in enumerate(zip(groups.items(), "osD^v<>", strict=False)):
-                label = None if group in named else group
-                named.add(group)
-                line_of, colour = {"linestyle": "none", "marker": sign, "ms": 3, "alpha": 0.6}, f"C{place}"
-                for chosen, face, name in ((rows & certain, colour, label), (rows & ~certain, "none", None)):
-                    drawn = np.maximum(error[chosen], MIN_PERCENT)
-                    axes.plot(number[chosen], drawn, color=colour, mfc=face, label=name, **line_of)
-            for tolerance, limit in law.thresholds.items():
-                if limit is not None:
-                    axes.plot([np.nanmin(number), limit, limit], [100 * tolerance] * 2 + [MIN_PERCENT], "k:", lw=0.8)
-            axes.set(xscale="log", yscale="log")
-            axes.set_title(f"{setting}: {title}, rank correlation {law.rank:.3f}", fontsize=9)
-            axes.set_xlabel(sweeping(kind).words(law.powers), fontsize=8)
-            axes.tick_params(axis="x", which="both", labelsize=7)
-            axes.set_ylabel("error, %", fontsize=8)
+    pairs = [
+        (setting, quantity) for setting in settings for quantity in kind.compared if (setting, quantity) in orderings
+    ]
+    lines = -(-len(pairs) // 2)
+    figure, panels = new_figure((10, 0.6 + 2.6 * lines), lines, 2, squeeze=False)
+    for axes in panels.flat[len(pairs) :]:
+        axes.set_axis_off()
+    for axes, (setting, quantity) in zip(panels.flat, pairs, strict=False):
+        law = orderings[setting, quantity]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            number = product(sweep.features(), law.powers)
+        error = 100 * relative_error(sweep, setting, reference.setting, quantity)
+        error[~loaded(sweep, reference.setting)] = np.nan
+        certain = interval(sweep, setting, reference, quantity)[0] > 0
+        for place, ((group, rows), sign) in enumerate(zip(groups.items(), "osD^v<>", strict=False)):
+            label = None if group in named else group
+            named.add(group)
+            line_of, colour = {"linestyle": "none", "marker": sign, "ms": 3, "alpha": 0.6}, f"C{place}"
+            for chosen, face, name in ((rows & certain, colour, label), (rows & ~certain, "none", None)):
+                drawn = np.maximum(error[chosen], MIN_PERCENT)
+                axes.plot(number[chosen], drawn, color=colour, mfc=face, label=name, **line_of)
+        for tolerance, limit in law.thresholds.items():
+            if limit is not None:
+                axes.plot([np.nanmin(number), limit, limit], [100 * tolerance] * 2 + [MIN_PERCENT], "k:", lw=0.8)
+        axes.set(xscale="log", yscale="log")
+        axes.set_title(f"{setting}: {kind.compared[quantity]}, rank correlation {law.rank:.3f}", fontsize=9)
+        axes.set_xlabel(sweeping(kind).words(law.powers), fontsize=8)
+        axes.tick_params(axis="x", which="both", labelsize=7)
+        axes.set_ylabel("error, %", fontsize=8)
     figure.legend(loc="outside upper center", ncols=4, fontsize=8)
     return svg(figure)
 
@@ -90,5 +91,5 @@ def sweep_chart(sweep: Sweep, reference: Reference, settings: Sequence[str]) -> 
         )
         axes.set(xscale="log", yscale="log", xlabel="CPU time a case, s", ylabel=f"error in {title}, %")
     handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8)
+    figure.legend(handles, labels, loc="outside upper center", ncols=4, fontsize=8)
     return svg(figure)

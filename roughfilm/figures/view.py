@@ -2,7 +2,7 @@
 
 import importlib
 import pkgutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -27,6 +27,14 @@ class Style:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Plot:
+    """A figure as SVG text, and sentences on what it does not draw."""
+
+    svg: str
+    words: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
 class View:
     """The words, figures and styles of a kind of scene; every file under ``figures/views/`` ends with ``VIEW``.
 
@@ -34,12 +42,14 @@ class View:
     ----------
     page : template of a comparison, which extends comparison.html.j2.
     styles : style of each model.
-    labels : names of the compared quantities in tables.
-    headings : quantities in the table of the models, with their headings (HTML).
-    plots : plots(scene, results), figures of the kind, SVG by name.
+    cards : quantities at the top of a comparison beside the one that the scene asks for, those of the whole first.
+    rows : quantities in the table of the models.
+    plots : plots(scene, results, reference), figures of the kind by name, with the fields of the model ``reference``.
+    line : name of the figure with the pressure along the film; empty if there is none.
     groups : groups(given), masks of the cases of a sweep that share a marker, by name.
     drawing : module that draws a result which resolves the film, in space; empty where there is none.
     maps : maps(sweep, setting, reference, quantity), errors over the varied entries, SVG; None where there is no map.
+    grids : origin of the uncertainty by grids, in words.
     errors : quantities whose errors a sweep gives, in words.
     ordering : features of a sweep, in words.
     left_out : cases of a sweep that its numbers leave out, in words, after a space; empty if none.
@@ -47,12 +57,14 @@ class View:
 
     page: str
     styles: Mapping[str, Style]
-    labels: Mapping[str, str]
-    headings: Mapping[str, str]
-    plots: Callable[[Any, Mapping[str, Result]], Mapping[str, str]]
+    cards: Sequence[str]
+    rows: Sequence[str]
+    plots: Callable[[Any, Mapping[str, Result], str], Mapping[str, Plot]]
     groups: Callable[[Columns], Mapping[str, NDArray[Any]]]
+    line: str = ""
     drawing: str = ""
     maps: Callable[[Sweep, str, Reference, str], str] | None = None
+    grids: str = "grid convergence index"
     errors: str = ""
     ordering: str = ""
     left_out: str = ""

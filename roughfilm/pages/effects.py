@@ -5,13 +5,13 @@ from pathlib import Path
 from typing import Any
 
 from roughfilm.figures import effects as effects_figures
+from roughfilm.figures.effects import Panel
 from roughfilm.pages.render import render, write_figures
 from roughfilm.rom.bearing.effects.ablation import Amount
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis
 from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.rom.ladder.kind import kind_of_name
-from roughfilm.words.effects import AT_FILM, SHOWN, UNDER_LOAD, cell, sentences, shown_quantities
-from roughfilm.words.numbers import percent
+from roughfilm.words.effects import AT_FILM, SHOWN, UNDER_LOAD, Shown, cell, of_whole, shown_quantities
 
 LAST_COLUMN = "contact_share"
 """The last column of the tables, which is not drawn."""
@@ -19,36 +19,97 @@ LAST_COLUMN = "contact_share"
 
 def write_page(analysis: EffectAnalysis, entries: Mapping[str, Any], out: Path) -> None:
     """Write the page and its figures; InputError if a file cannot be written."""
-    title = f"{analysis.which_film.capitalize()}, {analysis.film * 1e6:.4g} µm"
-    views = [_view(title, analysis.at_film, AT_FILM, _beside(analysis))]
+    at_film = f"{analysis.which_film}, {analysis.film * 1e6:.4g} µm"
+    first = _panels(analysis.at_film, ("load", "friction"), at_film, _beside(analysis))
+    views = [(at_film, analysis.at_film, AT_FILM, _beside(analysis), "effects_at_film")]
     if analysis.under_load is not None and analysis.scene.load_pressure is not None:
-        title = f"Under {analysis.scene.load_pressure / 1e6:.4g} MPa over the nominal area"
+        under = f"under {analysis.scene.load_pressure / 1e6:.4g} MPa over the nominal area"
         beside = {} if analysis.thicker is None else {"film": analysis.thicker}
-        views.append(_view(title, analysis.under_load, UNDER_LOAD, beside))
-    names = ("effects_at_film", "effects_under_load")
-    write_figures({name: view["figure"] for name, view in zip(names, views, strict=False)}, out)
+        first[1:1] = _panels(analysis.under_load, ("film",), under, beside)
+        views.append((under, analysis.under_load, UNDER_LOAD, beside, "effects_under_load"))
+    shown = [_view(*view, [panel.name for panel in first]) for view in views]
+    figure = effects_figures.waterfall(first)
+    write_figures({"effects": figure, **{view["file"]: view["figure"] for view in shown if view["figure"]}}, out)
     kind = kind_of_name(analysis.scene.kind)
     render(
         "effects.html.j2",
         out / "report.html",
         name=analysis.scene.name,
         which_film=analysis.which_film,
+        at_film=at_film,
         entries=entries,
-        views=views,
+        cards=[(_value(panel), panel.how.title, panel.where) for panel in first],
+        coefficient=_coefficient(views[-1][1], views[-1][0]),
+        most=_most(first[0]),
+        columns=[(panel.how.title, panel.how.unit, panel.where) for panel in first],
+        rows=_rows(first),
+        figure=figure,
+        views=shown,
         treated=analysis.treated,
         left_out=analysis.left_out,
-        numbers=[(kind.symbols[name], f"{value:.3g}") for name, value in kind.numbers(analysis.scene).items()],
+        numbers=[
+            (name.replace("_", " "), kind.symbols[name], f"{value:.3g}")
+            for name, value in kind.numbers(analysis.scene).items()
+        ],
         inertia=analysis.inertia,
-        loaded=analysis.loaded_inertia,
         thicker=None if analysis.thicker is None else f"{cell(analysis.thicker, SHOWN['film'], sign=True)} µm",
-        inertia_load=None if analysis.inertia is None else _of_load(analysis.inertia.amounts["load"], analysis.at_film),
+        inertia_load=None if analysis.inertia is None else _of_load(first[0], analysis.inertia.amounts["load"]),
     )
 
 
-def _of_load(added: Amount, study: EffectStudy) -> str:
-    name = next(iter(shown_quantities(study, ("load",))))
-    fraction = percent(added.value / study.full[name].value)
-    return f"{cell(added, SHOWN[name], sign=True)} {SHOWN[name].unit} ({fraction} of the load)"
+def _panels(study: EffectStudy, names: Sequence[str], where: str, beside: Mapping[str, Amount]) -> list[Panel]:
+    return [
+        Panel(study=study, name=name, how=how, where=where, beside=beside.get(name))
+        for name, how in shown_quantities(study, names).items()
+    ]
+
+
+def _value(panel: Panel) -> str:
+    return f"{cell(panel.study.full[panel.name], panel.how)} {panel.how.unit}"
+
+
+def _coefficient(study: EffectStudy, where: str) -> tuple[str, str] | None:
+    """The friction coefficient with all effects, and where that is; None if the film carries no load."""
+    found = study.full.get("friction_coefficient")
+    return None if found is None else (cell(found, Shown(title="", unit="")), where)
+
+
+def _most(panel: Panel) -> str:
+    """The effect that changes a quantity most when it is switched on next, in words."""
+    known = [one for one in panel.study.contributions if panel.name in one.on]
+    if not known:
+        return ""
+    most = max(known, key=lambda one: abs(one.on[panel.name].value))
+    return f"{most.name}, by {cell(most.on[panel.name], panel.how, sign=True)} {panel.how.unit}"
+
+
+def _rows(panels: Sequence[Panel]) -> list[tuple[str, list[tuple[str, str]]]]:
+    """A row for each effect: for each panel what it adds when switched on next, and that over the whole."""
+
+    def row(title: str, amounts: Sequence[Amount | None], *, sign: bool) -> tuple[str, list[tuple[str, str]]]:
+        return title, [
+            (
+                cell(amount, panel.how, sign=sign),
+                "" if amount is None or not sign else of_whole(amount, panel.study.full[panel.name].value),
+            )
+            for panel, amount in zip(panels, amounts, strict=True)
+        ]
+
+    effects = [one.name for one in panels[0].study.contributions]
+    rows = [row("plain film", [panel.study.plain.get(panel.name) for panel in panels], sign=False)]
+    for number, name in enumerate(effects):
+        rows.append(
+            row(f"+ {name}", [panel.study.contributions[number].on.get(panel.name) for panel in panels], sign=True)
+        )
+    rows.append(row("all effects", [panel.study.full[panel.name] for panel in panels], sign=False))
+    if any(panel.beside is not None for panel in panels):
+        rows.append(row("inertia, not counted", [panel.beside for panel in panels], sign=True))
+    return rows
+
+
+def _of_load(panel: Panel, added: Amount) -> str:
+    part = of_whole(added, panel.study.full[panel.name].value)
+    return f"{cell(added, panel.how, sign=True)} {panel.how.unit}{f' ({part} of the load)' if part else ''}"
 
 
 def _beside(analysis: EffectAnalysis) -> dict[str, Amount]:
@@ -61,8 +122,15 @@ def _beside(analysis: EffectAnalysis) -> dict[str, Amount]:
     }
 
 
-def _view(title: str, study: EffectStudy, drawn: Sequence[str], beside: Mapping[str, Amount]) -> dict[str, Any]:
-    """The title, tables, figure and sentences of a study at a film, or under a load."""
+def _view(
+    where: str,
+    study: EffectStudy,
+    drawn: Sequence[str],
+    beside: Mapping[str, Amount],
+    file: str,
+    elsewhere: Sequence[str],
+) -> dict[str, Any]:
+    """The title and tables of a study at a film, or under a load, and a figure of what is drawn nowhere else."""
     columns = shown_quantities(study, (*drawn, LAST_COLUMN))
 
     def row(title: str, of: Mapping[str, Amount], *, sign: bool = True) -> tuple[str, list[str]]:
@@ -71,17 +139,17 @@ def _view(title: str, study: EffectStudy, drawn: Sequence[str], beside: Mapping[
     on = [
         row("plain film", study.plain, sign=False),
         *(row(f"+ {one.name}", one.on) for one in study.contributions),
-        row("all of it", study.full, sign=False),
+        row("all effects", study.full, sign=False),
     ]
     alone = [row(one.name, one.alone) for one in study.contributions]
     if beside:
         alone.append(row("inertia, not counted", beside))
-    judged = {name: how for name, how in shown_quantities(study, drawn).items() if name != "side_leakage"}
+    panels = [panel for panel in _panels(study, drawn, "", beside) if panel.name not in elsewhere]
     return {
-        "title": title,
+        "title": f"{where[:1].upper()}{where[1:]}",
         "columns": columns,
         "tables": {"Switched on one after the other": on, "Each added to all the others": alone},
-        "figure": effects_figures.waterfall(study, shown_quantities(study, drawn), beside),
-        "words": {SHOWN[name].title: sentences(study, name, beside.get(name)) for name in judged},
+        "file": file,
+        "figure": effects_figures.waterfall(panels) if panels else "",
         "untold": study.unsolved,
     }

@@ -1,7 +1,7 @@
 """The page of flow factors."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,23 @@ from roughfilm.rom.homogenization.flow_factors import Estimated
 from roughfilm.rom.homogenization.table.factor_table import FactorTable
 from roughfilm.words.numbers import with_error
 
-COLUMNS = ("A11", "A12", "A22", "B1", "B2", "d", "e")
+BY_PRESSURE = {"A11": "along x", "A22": "along y", "A12": "crossed"}
+"""Names of the pressure flow factors."""
+
+BY_SLIDING = {
+    "B1": "flow along x",
+    "B2": "flow along y",
+    "d": "friction, mean of 1/h",
+    "e": "friction by deflected flow",
+}
+"""Names of the factors of the flow and of the friction by sliding along x."""
+
+CARDS = {
+    "A11": "times the flow of a smooth film, by pressure along x",
+    "A22": "times that flow, by pressure along y",
+    "B1": "times the flow that sliding along x drags",
+}
+"""The factors at the top of the page, in words."""
 
 
 def write_page(
@@ -40,14 +56,24 @@ def write_page(
         If the file cannot be written.
     """
     pressed = table is not None and any(point.load for point in table.points)
+    asked = points[0] if table is None else min(points, key=lambda point: (point["contact"], point["mean_gap"]))
     render(
         "factors.html.j2",
         path,
         name=name,
         entries=entries,
-        columns=COLUMNS,
-        rows=[_row(point, pressed=pressed) for point in points],
-        one=None if table is not None else entries["quantities"],
+        asked=f"{1e6 * asked['mean_gap']:.4g}",
+        cards={words: _factor(asked, factor) for factor, words in CARDS.items()},
+        touching=asked["contact"],
+        first=table is not None,
+        tables={
+            "Flow by pressure": (BY_PRESSURE, [_row(point, BY_PRESSURE, pressed=pressed) for point in points]),
+            "Flow and friction by sliding along x": (
+                BY_SLIDING,
+                [_row(point, BY_SLIDING, pressed=pressed) for point in points],
+            ),
+        },
+        loaded=pressed,
         shown={"mean_gap": factors.factors.mean_gap, "contact": factors.contact, "sealed": factors.factors.sealed},
         maps=factors_figures.maps(gap, rough.spacing, factors.correctors, factors.factors.sealed),
         sq=float(rough.heights.std()),
@@ -56,14 +82,19 @@ def write_page(
     )
 
 
-def _row(point: Mapping[str, Any], *, pressed: bool) -> list[str]:
-    sealed = " ".join(axis for axis in "xy" if point[f"sealed_{axis}"])
-    cells = [_cell(point[name]) for name in COLUMNS]
-    loaded = [f"{1e6 * point['separation']:.4g}", f"{point['load'] / 1e6:.4g}"] if pressed else []
-    return [*loaded, f"{1e6 * point['mean_gap']:.4g}", f"{100 * point['contact']:.3g}", *cells, sealed]
+def _row(point: Mapping[str, Any], names: Iterable[str], *, pressed: bool) -> list[str]:
+    loaded = [f"{point['load'] / 1e6:.4g}"] if pressed else []
+    return [
+        *loaded,
+        f"{1e6 * point['mean_gap']:.4g}",
+        f"{100 * point['contact']:.3g}",
+        *(_factor(point, name) for name in names),
+    ]
 
 
-def _cell(entry: Mapping[str, float | None]) -> str:
-    value, uncertainty = entry["value"], entry["uncertainty"]
-    assert value is not None
-    return with_error(value, math.inf if uncertainty is None else uncertainty)
+def _factor(point: Mapping[str, Any], name: str) -> str:
+    """A factor with its uncertainty, or "sealed"."""
+    if (name == "A11" and point["sealed_x"]) or (name == "A22" and point["sealed_y"]):
+        return "sealed"
+    value, uncertainty = point[name]["value"], point[name]["uncertainty"]
+    return with_error(value, math.inf if uncertainty is None else uncertainty).replace("-", "−")

@@ -13,13 +13,21 @@ from roughfilm.contact.parameters.peaks import lowest_valleys
 from roughfilm.figures import leakage as leakage_figures
 from roughfilm.figures.pressed_surface import view_picture
 from roughfilm.pages.render import render
+from roughfilm.rom.seal.at_load import SealAtLoad
 from roughfilm.rom.seal.leakage.curve import SealSetup
 from roughfilm.rom.seal.leakage.effective_medium import effective_medium
 from roughfilm.rom.seal.leakage.percolation import Threshold
 from roughfilm.rom.seal.leakage.series import SOUGHT, Row
 from roughfilm.rom.seal.scene import Seal
-from roughfilm.words.leakage import WORDS, in_words, leaks, scatter_in_words
+from roughfilm.words.leakage import in_words, leakage_scale, leaks, scatter_in_words
 from roughfilm.words.numbers import digits
+from roughfilm.words.scales import Scale
+
+KINDS = ("direct", "homogenized")
+"""The flow through one period between reservoirs, and that of the periodic surface."""
+
+DRAWN_LOADS = 4
+"""Largest number of loads whose gaps are drawn."""
 
 
 def write_page(
@@ -27,17 +35,20 @@ def write_page(
     body: SealSetup,
     rows: Mapping[float, Row],
     thresholds: Mapping[str, Threshold],
+    answer: SealAtLoad,
     entries: Mapping[str, Any],
     directory: Path,
 ) -> None:
     """Write report.html of a series and of the object of ``--json``; InputError if the file cannot be written."""
     ordered, spectrum, stiffness = list(rows.values()), scene.spectrum(), scene.composite_modulus
+    scale, gap = leakage_scale(answer), Scale(factor=1e-6, unit="µm")
+    leak = answer.leakage_per_width
     depth = _valley_depth(body) if np.ptp(body.surface.heights) > 0 else 0.0
     estimated = {}
     if spectrum is not None:
         films = {load: effective_medium(spectrum, composite_modulus=stiffness, load=load) for load in rows}
         estimated = {load: film.permeability for load, film in films.items()}
-    shown = _shown(ordered, scene.axis)
+    shown = _shown(ordered, scene.axis, answer.load)
     contacts = [load_contact(body.contacts, load) for load in shown]
     picture, why = view_picture([gap_map(contact) for contact in contacts])
     render(
@@ -46,15 +57,18 @@ def write_page(
         scene=scene,
         entries=entries,
         warnings=entries["provenance"]["warnings"],
-        thresholds={WORDS[name]: in_words(threshold) for name, threshold in thresholds.items()},
-        cards=[(axis, thresholds[f"direct_{axis}"]) for axis in "xy"],
+        answer=answer,
+        leak="sealed" if answer.sealed else scale.text(leak.value, leak.uncertainty),
+        unit=scale.unit,
+        area=Scale(factor=0.01, unit="%").text(answer.area_fraction.value, answer.area_fraction.uncertainty),
+        gap=gap.text(answer.mean_gap.value, answer.mean_gap.uncertainty),
+        sealing=thresholds[SOUGHT[scene.axis]],
+        thresholds={axis: [in_words(thresholds[f"{kind}_{axis}"]) for kind in KINDS] for axis in "xy"},
         scatter=scatter_in_words(body.spread) if np.ptp(body.surface.heights) > 0 else "",
-        first=ordered[0],
-        first_leak=leaks(scene, ordered[0], SOUGHT[scene.axis]),
         periods=scene.flow.length / body.surface.size[scene.axis],
         ratio=_ratio(ordered, scene.flow.direction),
-        areas=leakage_figures.areas(ordered, thresholds),
-        leakages=leakage_figures.leakages(scene, ordered, thresholds, estimated),
+        areas=leakage_figures.areas(ordered, thresholds, answer),
+        leakages=leakage_figures.leakages(scene, ordered, thresholds, estimated, answer, scale),
         scaled=leakage_figures.scaled(ordered, depth, stiffness) if any(map(_leaks, ordered)) else None,
         valley_depth=depth,
         paths=leakage_figures.paths(contacts, scene.axis) if any(one.gap.any() for one in contacts) else None,
@@ -62,11 +76,13 @@ def write_page(
         why=why,
         shown=shown,
         rows=[
-            [
-                *map(digits, (row.load * 1e-6, row.area_fraction * 100, row.mean_gap * 1e6)),
-                *(leaks(scene, row, name) for name in SOUGHT),
-                *(_relative_uncertainty(row, name) for name in SOUGHT[:2]),
-            ]
+            (
+                row.load == answer.load,
+                [
+                    *map(digits, (row.load * 1e-6, row.area_fraction * 100, row.mean_gap * 1e6)),
+                    *(leaks(scene, row, name, scale) for name in SOUGHT),
+                ],
+            )
             for row in ordered
         ],
     )
@@ -77,13 +93,14 @@ def _valley_depth(body: SealSetup) -> float:
     return float(lowest_valleys(body.surface, apart).mean())
 
 
-def _shown(rows: Sequence[Row], axis: int) -> tuple[float, ...]:
-    """Four loads that are drawn: two that leak along the flow, the last that leaks, the first that is sealed."""
+def _shown(rows: Sequence[Row], axis: int, load: float) -> tuple[float, ...]:
+    """Four loads that are drawn: that of the answer, and some of those around the load at which the seal closes."""
     name = SOUGHT[axis]
     opened = [row.load for row in rows if not getattr(row, f"{name}_sealed")]
     closed = [row.load for row in rows if getattr(row, f"{name}_sealed")]
-    middle = [opened[len(opened) // 2], opened[min(len(opened) - 1, 4 * len(opened) // 5)]] if opened else []
-    return tuple(sorted({*opened[-1:], *closed[:1], *middle, *([] if opened else closed[-1:])}))
+    between = [opened[4 * len(opened) // 5], opened[len(opened) // 2]] if opened else []
+    chosen = dict.fromkeys([load, *opened[-1:], *closed[:1], *between, *closed[-1:]])
+    return tuple(sorted([*chosen][:DRAWN_LOADS]))
 
 
 def _ratio(rows: Sequence[Row], axis: str) -> float | None:
@@ -98,9 +115,3 @@ def _ratio(rows: Sequence[Row], axis: str) -> float | None:
 
 def _leaks(row: Row) -> bool:
     return row.direct_x > 0 or row.direct_y > 0
-
-
-def _relative_uncertainty(row: Row, name: str) -> str:
-    """The uncertainty over the value."""
-    value, uncertainty = getattr(row, name), getattr(row, f"{name}_uncertainty")
-    return "–" if value == 0 else f"{100 * uncertainty / value:.2g} %"

@@ -7,14 +7,11 @@ from typing import Any
 import jinja2
 
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.foundation.writing.kinds import FIGURE, PAGE
 from roughfilm.figures.rendering import viewer
-from roughfilm.rom.studies.comparison import Difference
 from roughfilm.terminal.layout import VISIBLE
 from roughfilm.words.cost import seconds
-from roughfilm.words.numbers import MIN_UNCERTAINTY, percent, share, span
-from roughfilm.words.units import scale_of
+from roughfilm.words.numbers import share, span
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -37,16 +34,11 @@ def render(template: str | Path, path: Path, *, overwrite: bool = False, **entri
         finalize=_visible,
     )
     environment.filters.update(
-        percent=percent,
         share=share,
         seconds=seconds,
         number=_number,
-        digits=_digits,
         si=_si,
         micro=_micro,
-        quantity=_quantity,
-        difference=_difference,
-        interval=_interval,
         span=lambda ends: "–" if ends is None else span(*ends),
     )
     held = iter(("viewer",))
@@ -69,32 +61,7 @@ def _visible(value: Any) -> Any:
 
 
 def _number(value: float) -> str:
-    return "0" if abs(value) < 5e-5 else f"{value:.4g}"
-
-
-def _digits(value: float) -> str:
-    return "0" if abs(value) < 5e-7 else f"{value:.6g}"
-
-
-def _quantity(quantity: Quantity) -> str:
-    """A quantity with its unit, in µm, MPa, kN or ml/min where these fit."""
-    known = {"1": _number, "m": _micro, "Pa": _si}
-    value, (size, name) = quantity.value, scale_of(quantity.unit, abs(quantity.value))
-    shown = known[quantity.unit](value) if quantity.unit in known else f"{value / size:.4g} {name}"
-    return shown.replace("-", "−")
-
-
-def _difference(value: float, unit: str) -> str:
-    size = f"{abs(value):.4f}" if unit == "1" else _quantity(Quantity(value=abs(value), unit=unit))
-    return ("+" if value >= 0 else "−") + size
-
-
-def _interval(difference: Difference) -> str:
-    """A relative difference ± its uncertainty, in per cent; a negligible uncertainty is left out."""
-    if difference.uncertainty is None:
-        return f"{percent(difference.relative)} ± ?"
-    bar = f" ± {share(difference.uncertainty)}" if difference.uncertainty >= MIN_UNCERTAINTY else ""
-    return percent(difference.relative) + bar
+    return "0" if abs(value) < 5e-5 else f"{value:.4g}".replace("-", "−")
 
 
 def _micro(value: float) -> str:
@@ -104,5 +71,5 @@ def _micro(value: float) -> str:
 def _si(value: float) -> str:
     for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
         if abs(value) >= factor:
-            return f"{value / factor:.4g} {prefix}Pa"
-    return f"{value:.4g} Pa"
+            return f"{value / factor:.4g} {prefix}Pa".replace("-", "−")
+    return f"{value:.4g} Pa".replace("-", "−")

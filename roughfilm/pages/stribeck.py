@@ -1,6 +1,7 @@
 """The page of Stribeck curves."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,14 +17,23 @@ from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.stribeck import LOAD_TOLERANCE, StribeckCurve, StribeckPoint, curve_film
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.words.numbers import with_error
-from roughfilm.words.stribeck import lift_off, speed_scale
+from roughfilm.words.stribeck import SpeedScale, lift_off, number_of, own_point, speed_scale
 
 DRAWN_CONTACT_SHARE = 0.3
 """The first film drawn is the one whose asperities carry nearest to this fraction of the load."""
 
-MAX_ROWS = 9
-"""Largest number of points of a curve in the table of numbers."""
+COLUMNS = (
+    ("friction coefficient", "", "friction_coefficient", 1.0),
+    ("least film (mean gap)", "µm", "least_gap", 1e6),
+    ("carried by contact", "%", "contact_share", 100.0),
+    ("film pressure, largest", "MPa", "pressure_max", 1e-6),
+    ("contact pressure, largest", "MPa", "contact_pressure_max", 1e-6),
+    ("cavitated", "%", "cavitated_fraction", 100.0),
+)
+"""Title, unit, name and factor of each column of the table of numbers."""
+
+OF_CONTACT = ("contact_share", "contact_pressure_max")
+"""Columns of a bearing with asperities."""
 
 
 def write_page(
@@ -41,22 +51,60 @@ def write_page(
     speeds, pressures = [point.speed for point in middle.points], [curve.pressure for curve in curves]
     film = curve_film(scene, asperities, speeds, pressures, resolution, LOAD_TOLERANCE)
     drawn = [drawn_film(film, point, f"{factor * point.speed:.3g} {unit}") for point in shown_points(middle)]
+    columns = [column for column in COLUMNS if asperities is not None or column[2] not in OF_CONTACT]
+    touching = None if asperities is None else asperities.touching
     render(
         "stribeck.html.j2",
         path,
         name=scene.name or "bearing",
         entries=entries,
         unit=unit,
-        factor=factor,
+        own=f"{factor * abs(scene.motion.speed):.4g} {unit}",
         friction=scene.asperities.friction if scene.asperities is not None else 0.0,
-        pressures=[curve.pressure for curve in curves],
-        lifts=[(curve, lift_off(curve, scale)) for curve in curves],
+        answers=[_answer(scene, curve, scale) for curve in curves],
         shown=f"{middle.pressure / 1e6:.4g} MPa",
-        rows=[_row(point, factor) for curve in curves for point in _few(curve.points)],
-        curves=svg(stribeck_figures.curves(curves, scale, None if asperities is None else asperities.touching)),
+        columns=columns,
+        rows={
+            f"{curve.pressure / 1e6:.4g} MPa": [
+                (
+                    point is own_point(scene, curve),
+                    [f"{factor * point.speed:.4g}", *_row(point, columns)],
+                )
+                for point in curve.points
+                if point.uncertainty
+            ]
+            for curve in curves
+        },
+        curves=svg(stribeck_figures.curves(curves, scale, touching, abs(scene.motion.speed))),
         films=svg(stribeck_figures.films(drawn)),
+        contact=any(one.contact.any() for one in drawn),
         table=None if asperities is None else svg(stribeck_figures.asperity_table(asperities)),
-        touching=None if asperities is None else asperities.touching,
+        touching=touching,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """What the page begins with under one load: friction, film and contact at the speed of the scene, "" without it."""
+
+    load: str
+    lift: str
+    friction: str
+    film: str
+    contact: str
+    least: str
+
+
+def _answer(scene: Bearing, curve: StribeckCurve, scale: SpeedScale) -> Answer:
+    own = own_point(scene, curve)
+    least = min(curve.points, key=lambda point: point.friction_coefficient)
+    return Answer(
+        load=f"{curve.pressure / 1e6:.4g} MPa",
+        lift=lift_off(curve, scale),
+        friction="" if own is None else number_of(own, "friction_coefficient"),
+        film="" if own is None else number_of(own, "least_gap", 1e6),
+        contact="" if own is None else number_of(own, "contact_share", 100.0),
+        least=f"{least.friction_coefficient:.3g} at {scale.factor * least.speed:.3g} {scale.unit}",
     )
 
 
@@ -91,23 +139,5 @@ def _closed(values: Array) -> Array:
     return np.vstack([values, values[:1]])
 
 
-def _few(points: Sequence[StribeckPoint]) -> list[StribeckPoint]:
-    places = np.unique(np.linspace(0, len(points) - 1, min(MAX_ROWS, len(points))).round().astype(int))
-    return [points[place] for place in places]
-
-
-def _row(point: StribeckPoint, factor: float) -> list[str]:
-    def cell(name: str, scale: float = 1.0) -> str:
-        return with_error(scale * getattr(point, name), scale * point.uncertainty.get(name, 0.0))
-
-    return [
-        f"{point.pressure / 1e6:.4g}",
-        f"{factor * point.speed:.4g}",
-        cell("friction_coefficient"),
-        cell("separation", 1e6),
-        cell("least_gap", 1e6),
-        cell("contact_share", 100),
-        cell("pressure_max", 1e-6),
-        cell("contact_pressure_max", 1e-6),
-        cell("cavitated_fraction", 100),
-    ]
+def _row(point: StribeckPoint, columns: Sequence[tuple[str, str, str, float]]) -> list[str]:
+    return [number_of(point, name, factor) for _, _, name, factor in columns]

@@ -10,7 +10,7 @@ from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD
 from roughfilm.figures import surface as surface_figures
 from roughfilm.figures.relief import surface_picture
 from roughfilm.pages.render import render
-from roughfilm.words.numbers import in_unit
+from roughfilm.words.numbers import in_unit, percent
 from roughfilm.words.surface import preparation_steps
 
 MEANINGS = {
@@ -54,6 +54,7 @@ def write_page(
         source=source,
         prepared=prepared,
         rows=rows,
+        changes={name: _change(quantities, name) for name in ("Sq", "Sa")},
         steps=[line.partition(": ") for line in preparation_steps(prepared)],
         mismatch=prepared.record["periodicity_mismatch"],
         threshold=MISMATCH_THRESHOLD,
@@ -66,3 +67,9 @@ def write_page(
         spectrum=surface_figures.power_spectra(prepared),
         provenance=provenance,
     )
+
+
+def _change(quantities: Mapping[str, Quantity], name: str) -> str:
+    """What preparation changed in a parameter, as a part of a sentence."""
+    before, after = quantities[f"raw_{name}"].value, quantities[name].value
+    return "did not change" if before == after else f"changed by {percent(after / before - 1)}"

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from roughfilm.batch.plan import TO_COME, Batch
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.figures import answers as drawn
 from roughfilm.figures.rendering import draw_apart, embedded
@@ -45,11 +45,11 @@ from roughfilm.rom.studies.sufficient import (
     suitability,
 )
 from roughfilm.rom.studies.sweep import Sweep, kind_of_sweep, read_sweep, restricted
+from roughfilm.words.headline import model_sentences
 from roughfilm.words.numbers import finite, percent, share
+from roughfilm.words.scales import Scale, common_scale
 from roughfilm.words.sweep import (
-    Scale,
     best_sentence,
-    common_scale,
     count_text,
     decision_sentence,
     edited_sentences,
@@ -251,9 +251,7 @@ def write_sweep(study: Study, want: str | None, path: Path, *, overwrite: bool =
     shown = shown_answers(study, want)
     asked = {shown[0].answer.quantity, *asked_quantities(study.sweep, study.reference.setting)}
     main = [one for one in shown if one.answer.quantity in asked]
-    rest = [one for one in shown if one.answer.quantity not in asked and len(set(one.answer.values)) > 1]
-    rest = [one for one in rest if np.nanmax(one.answer.values) > np.nanmin(one.answer.values)]
-    rest = rest[:MAX_PANELS]
+    rest = [one for one in shown if one.answer.quantity not in asked and _varies(one)][:MAX_PANELS]
     solved = {name: np.isfinite(study.sweep.cpu_s[name]) for name in study.sweep.found}
     missing = missing_sentences(solved, study.sweep.failures, len(study.batch.missing))
     failures = [one for one in study.sweep.failures if not one[2].startswith(("left out", TO_COME))]
@@ -269,6 +267,7 @@ def write_sweep(study: Study, want: str | None, path: Path, *, overwrite: bool =
         study=study,
         sweep=study.sweep,
         headline=headline(study, shown[0]),
+        model=_model_sentences(study, shown[0].answer.best),
         others=[headline(study, one) for one in main[1:]],
         missing=[*missing, *filter(None, [unranked])],
         edited=edited,
@@ -282,7 +281,7 @@ def write_sweep(study: Study, want: str | None, path: Path, *, overwrite: bool =
         else "",
         fixed=_fixed(study, shown[0].answer.best),
         cases=_case_rows(study, shown, path),
-        heads=[f"{one.title}<br>{one.scale.unit}" for one in shown[:MAX_TABLE_QUANTITIES]],
+        heads=[one.scale.label(one.title) for one in shown[:MAX_TABLE_QUANTITIES]],
         first_rows=FIRST_ROWS,
         table=os.path.relpath(study.batch.directory / "table.csv", path.parent)
         if (study.batch.directory / "table.csv").is_file() and not study.batch.missing
@@ -312,6 +311,26 @@ def write_sweep(study: Study, want: str | None, path: Path, *, overwrite: bool =
         "sufficient": judged["cheapest"],
     }
     return entries, headline(study, shown[0])
+
+
+def _model_sentences(study: Study, best: int) -> tuple[str, ...]:
+    """The sentences on the best model and on what it leaves out in the best case; none without its result."""
+    result = _result(study.batch.result_path(study.sweep.names[best], study.reference.setting))
+    if result is None:
+        return ()
+    ladder = models(study.kind.name)
+    model = next(one for one in ladder if one.name == result.model)
+    try:
+        scene = read_scene(result.provenance["scene"])
+        return model_sentences(scene, model, ladder)
+    except (InputError, ConvergenceError, KeyError):
+        return ()
+
+
+def _varies(one: Shown) -> bool:
+    """Whether a quantity differs from case to case by more than rounding."""
+    values = one.answer.values[np.isfinite(one.answer.values)]
+    return values.size > 1 and float(np.ptp(values)) > one.scale.negligible
 
 
 def _reason(study: Study, answer: Answer) -> str:
@@ -363,18 +382,11 @@ def _case_rows(study: Study, shown: Sequence[Shown], path: Path) -> list[dict[st
         rows.append(
             {
                 "number": case + 1,
-                "varied": [one.text(case) for one in study.parameters],
+                "varied": [one.text(case).removesuffix(f" {one.unit}") for one in study.parameters],
                 "quantities": [
-                    "–"
-                    if np.isnan(one.answer.values[case])
-                    else one.scale.text(
-                        one.answer.values[case], float(np.nan_to_num(one.answer.uncertainty[case], nan=np.inf))
-                    )
-                    .removesuffix(one.scale.unit)
-                    .strip()
+                    one.scale.number(one.answer.values[case], float(one.answer.uncertainty[case]))
                     for one in shown[:MAX_TABLE_QUANTITIES]
                 ],
-                "model": study.reference.setting if case in answer.order else "–",
                 "directory": os.path.relpath(place.parent, path.parent),
                 "result": os.path.relpath(place, path.parent) if place.is_file() else "",
             }
@@ -399,7 +411,9 @@ def _chosen_cases(study: Study, shown: Shown) -> dict[str, Any]:
         if (profile := drawn.profile_of(result)) is not None:
             lines[title], label = profile[:2], profile[2]
         if name != "middle":
-            figures.append((title, *_pictures(study, result, case, flow=case == answer.best)))
+            drawn_along = profile is not None
+            pictures = _pictures(study, result, case, flow=case == answer.best, drawn_along=drawn_along)
+            figures.append((title, *pictures))
     return {"profiles": drawn.profiles(lines, label) if lines else "", "figures": figures}
 
 
@@ -410,11 +424,15 @@ def _result(path: Path) -> Result | None:
         return None
 
 
-def _pictures(study: Study, result: Result, case: int, *, flow: bool) -> tuple[list[str], str]:
-    """The figures of the kind of scene for a result, and the address of a picture of the flow that it resolves."""
+def _pictures(study: Study, result: Result, case: int, *, flow: bool, drawn_along: bool) -> tuple[list[str], str]:
+    """The figures of the kind of scene for a result, and the address of a picture of the flow that it resolves.
+
+    Without the pressure along the film if that is ``drawn_along`` already.
+    """
     try:
         scene = read_scene(result.provenance["scene"])
-        plots = list(study.view.plots(scene, {result.model: result}).values())
+        found = study.view.plots(scene, {result.model: result}, result.model)
+        plots = [one.svg for name, one in found.items() if one.svg and not (drawn_along and name == study.view.line)]
     except (InputError, KeyError):
         return [], ""
     if not flow or "vertices" not in result.fields or not study.view.drawing:

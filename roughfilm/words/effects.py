@@ -1,13 +1,14 @@
 """Quantities, numbers and sentences of the effects of a bearing."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from roughfilm.rom.bearing.effects.ablation import Amount
 from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.words.numbers import percent, with_error
+from roughfilm.words.scales import scale_for
 
-ROUNDING = 1e-9
+ROUNDING = 1e-7
 """Numbers below this, in the units of the tables, are written as 0."""
 
 MAX_CHANGE = 10.0
@@ -34,6 +35,9 @@ SHOWN: Mapping[str, Shown] = {
     "side_leakage": Shown(title="side leakage", unit="mm³/s", factor=1e9),
     "contact_share": Shown(title="carried by contact", unit="%", factor=100),
 }
+FORCES = ("load", "load_per_width", "friction", "friction_per_width")
+"""The quantities whose unit follows from their size; the others have the same on every page."""
+
 AT_FILM = ("load", "friction", "inlet_flow_per_width", "side_leakage")
 UNDER_LOAD = ("film", "friction_coefficient", "inlet_flow_per_width", "side_leakage")
 
@@ -41,7 +45,15 @@ UNDER_LOAD = ("film", "friction_coefficient", "inlet_flow_per_width", "side_leak
 def shown_quantities(study: EffectStudy, names: Sequence[str]) -> dict[str, Shown]:
     """The quantities of these names that a study has, each per width where there is none of the whole bearing."""
     names = [name if name in study.full else f"{name}_per_width" for name in names]
-    return {name: SHOWN[name] for name in names if name in study.full and name in SHOWN}
+    return {name: _in_its_unit(name, study.full[name]) for name in names if name in study.full and name in SHOWN}
+
+
+def _in_its_unit(name: str, full: Amount) -> Shown:
+    how = SHOWN[name]
+    if name not in FORCES:
+        return how
+    scale = scale_for(how.unit, abs(full.value))
+    return replace(how, unit=scale.unit, factor=1 / scale.factor)
 
 
 def cell(amount: Amount | None, how: Shown, *, sign: bool = False) -> str:
@@ -51,13 +63,15 @@ def cell(amount: Amount | None, how: Shown, *, sign: bool = False) -> str:
     if max(abs(amount.value), amount.uncertainty) * how.factor < ROUNDING:
         return "0"
     text = with_error(how.factor * amount.value, how.factor * amount.uncertainty)
-    return f"+{text}" if sign and amount.value > 0 and not text.startswith("(") else text.replace("-", "−")
+    zero = not text.partition(" ")[0].strip("-0.")
+    signed = sign and amount.value > 0 and not zero and not text.startswith("(")
+    return f"{'+' if signed else ''}{text}".replace("-", "−")
 
 
 def sentences(study: EffectStudy, name: str, inertia: Amount | None) -> list[str]:
     """What each effect adds to one quantity, with its fraction of the whole, as sentences."""
-    how, full = SHOWN[name], study.full[name]
-    lines = []
+    full = study.full[name]
+    how, lines = _in_its_unit(name, full), []
     for one in study.contributions:
         on, alone = one.on.get(name), one.alone.get(name)
         parts = [_adds(on, how, full.value)] if on else []
@@ -70,6 +84,11 @@ def sentences(study: EffectStudy, name: str, inertia: Amount | None) -> list[str
 
 
 def _adds(amount: Amount, how: Shown, full: float) -> str:
+    part = of_whole(amount, full)
+    return f"{cell(amount, how, sign=True)} {how.unit}{f' ({part})' if part else ''}"
+
+
+def of_whole(amount: Amount, full: float) -> str:
+    """A contribution over the whole, in per cent; empty where the whole is near zero."""
     comparable = full and abs(amount.value) <= MAX_CHANGE * abs(full)
-    fraction = f" ({percent(amount.value / abs(full))})" if comparable else ""
-    return f"{cell(amount, how, sign=True)} {how.unit}{fraction}"
+    return percent(amount.value / abs(full)) if comparable else ""

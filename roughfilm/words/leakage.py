@@ -1,10 +1,12 @@
 """Words and numbers of the leakage of a seal."""
 
+from roughfilm.rom.seal.at_load import SealAtLoad
 from roughfilm.rom.seal.leakage.percolation import Threshold
 from roughfilm.rom.seal.leakage.scatter import MEAN_SEALING_LOAD, SEALING_LOADS
 from roughfilm.rom.seal.leakage.series import Row
 from roughfilm.rom.seal.model import leakage_of
 from roughfilm.rom.seal.scene import Seal
+from roughfilm.words.scales import Scale, scale_for
 
 WORDS = {
     "direct_x": "single period between reservoirs, x",
@@ -33,6 +35,21 @@ def scatter_in_words(spread: float) -> str:
     )
 
 
-def leaks(scene: Seal, row: Row, name: str) -> str:
-    """Leakage per metre of width, kg/h, or "sealed"."""
-    return "sealed" if getattr(row, f"{name}_sealed") else f"{3600 * leakage_of(scene, getattr(row, name)):.3g}"
+def leakage_scale(answer: SealAtLoad) -> Scale:
+    """The unit of all leakages of a page, from that of the seal at its load."""
+    return scale_for(answer.leakage_per_width.unit, answer.leakage_per_width.value)
+
+
+def leaks(scene: Seal, row: Row, name: str, scale: Scale) -> str:
+    """The leakage per width of a row with its uncertainty, or "sealed"."""
+    value, uncertainty = (leakage_of(scene, getattr(row, key)) for key in (name, f"{name}_uncertainty"))
+    return "sealed" if getattr(row, f"{name}_sealed") else scale.number(value, uncertainty)
+
+
+def answer_in_words(scene: Seal, answer: SealAtLoad) -> str:
+    """What a seal leaks at one load, as a part of a sentence."""
+    where = f"along {scene.flow.direction} at {answer.load / 1e6:.4g} MPa"
+    if answer.sealed:
+        return f"{where}: sealed"
+    one = answer.leakage_per_width
+    return f"{where}: {leakage_scale(answer).text(one.value, one.uncertainty)}"

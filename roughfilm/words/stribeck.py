@@ -1,9 +1,10 @@
-"""Speeds of Stribeck curves in their unit."""
+"""Speeds and friction of Stribeck curves in words."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve
+from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.words.numbers import with_error
 
@@ -30,3 +31,26 @@ def lift_off(curve: StribeckCurve, scale: SpeedScale, *, named: bool = True) -> 
     if math.isnan(speed):
         return "not reached"
     return f"{with_error(speed, uncertainty)} {scale.unit}" if named else with_error(speed, uncertainty)
+
+
+def own_point(scene: Bearing, curve: StribeckCurve) -> StribeckPoint | None:
+    """The point of a curve at the speed of the scene; None if the curve does not have it."""
+    speed = abs(scene.motion.speed)
+    return next((point for point in curve.points if math.isclose(point.speed, speed, rel_tol=1e-9)), None)
+
+
+def number_of(point: StribeckPoint, name: str, factor: float = 1.0) -> str:
+    """A number of a point times a factor, with its uncertainty, which may be unknown."""
+    text = with_error(factor * getattr(point, name), factor * point.uncertainty.get(name, math.inf))
+    return text.replace("-", "−")
+
+
+def at_own_speed(scene: Bearing, curves: Sequence[StribeckCurve]) -> list[str]:
+    """The friction coefficient at the speed of the scene, under each load whose curve has it."""
+    scale, found = speed_scale(scene), {curve.pressure: own_point(scene, curve) for curve in curves}
+    return [
+        f"friction coefficient {number_of(point, 'friction_coefficient')} at {scale.factor * point.speed:.4g} "
+        f"{scale.unit} under {pressure / 1e6:.4g} MPa"
+        for pressure, point in found.items()
+        if point is not None
+    ]

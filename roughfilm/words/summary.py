@@ -6,6 +6,7 @@ from roughfilm.rom.advice.stated import percent, stated_errors
 from roughfilm.rom.ladder.kind import kind_of
 from roughfilm.rom.ladder.result import Result
 from roughfilm.words.cost import cost_in_words
+from roughfilm.words.headline import whole
 from roughfilm.words.numbers import digits
 from roughfilm.words.units import scale_of
 
@@ -27,11 +28,11 @@ def summary(result: Result, quantity: str, within: float) -> str:
 
 def value_of(result: Result, quantity: str) -> str:
     """The value of a quantity with its unit and numerical uncertainty in per cent, such as "load 12.3 N/m ± 0.5 %"."""
-    title = kind_of(result).titles[quantity]
+    kind = kind_of(result)
     if quantity not in result.quantities:
-        return f"no {title}"
-    plain = quantity.removesuffix("_plus")
-    shown = result[plain] if plain != quantity and f"{plain}_per_area" in result.quantities else result[quantity]
+        return f"no {kind.titles[quantity]}"
+    name = whole(quantity, result)
+    title, shown = kind.reported.get(name, kind.titles[quantity]), result.quantities[name]
     size, unit = scale_of(shown.unit, abs(shown.value))
     own = result[quantity]
     bar = "" if own.uncertainty is None or own.value == 0 else f" ± {percent(own.uncertainty / abs(own.value))}"

@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,31 +10,10 @@ from roughfilm.rom.ladder.kind import Kind
 from roughfilm.rom.studies.answers import Answer, Optimum, Sense, base_of
 from roughfilm.rom.studies.parameters import Parameter
 from roughfilm.words.numbers import share, with_error
-from roughfilm.words.units import scale_of
+from roughfilm.words.scales import Scale
 
 CASES_NAMED = 3
 """Cases that a sentence names; the others are counted."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Scale:
-    """The unit in which a quantity is shown; ``factor`` is its size in the SI unit."""
-
-    factor: float
-    unit: str
-
-    def text(self, value: float, uncertainty: float | None = None) -> str:
-        """A value in the SI unit with its uncertainty and the unit shown; NaN is unknown."""
-        bar = None if uncertainty is None or np.isnan(uncertainty) else uncertainty / self.factor
-        number = with_error(value / self.factor, bar)
-        return f"{number} {self.unit}".strip().replace("-", "−")
-
-
-def common_scale(unit: str, values: Array) -> Scale:
-    """The largest unit in which the largest magnitude of values is at least 1."""
-    known = np.abs(values[np.isfinite(values)])
-    factor, name = scale_of(unit, float(known.max(initial=0.0)))
-    return Scale(factor=factor, unit=name)
 
 
 def title_of(kind: Kind, quantity: str) -> str:

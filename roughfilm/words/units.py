@@ -17,20 +17,20 @@ DIGITS = 5
 
 Scales = tuple[tuple[float, str], ...]
 
-_MINUTE = 1 / 60
+_MINUTE, _HOUR = 1 / 60, 1 / 3600
 
 
-def _prefixed(unit: str, *powers: int) -> Scales:
-    """The multiples of a unit by powers of ten."""
+def _prefixed(unit: str, *powers: int, size: float = 1.0) -> Scales:
+    """The multiples of a unit by powers of ten; ``size`` is that of the unit in the SI unit."""
     names = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
-    return tuple((10.0**power, f"{names[power]}{unit}") for power in powers)
+    return tuple((size * 10.0**power, f"{names[power]}{unit}") for power in powers)
 
 
 SCALES: Mapping[str, Scales] = {
     "1": ((1e-12, "1e-12"), (1e-9, "1e-9"), (1e-6, "1e-6"), (1e-4, ""), (1e6, "1e6"), (1e9, "1e9")),
     "m": _prefixed("m", -12, -9, -6, -3, 0),
     "m^2": ((1e-12, "µm²"), (1e-6, "mm²"), (1.0, "m²")),
-    "m^3": tuple((10.0**power, f"1e{power} m³") for power in range(-27, -8, 3)),
+    "m^3": ((1e-27, "nm³"), (1e-18, "µm³"), (1e-9, "mm³")),
     "m^2/s": ((1e-18, "nm²/s"), (1e-12, "µm²/s"), (1e-6, "mm²/s"), (1.0, "m²/s")),
     "m^3/s": (
         (_MINUTE * 1e-15, "pl/min"),
@@ -46,15 +46,8 @@ SCALES: Mapping[str, Scales] = {
     "N*m": _prefixed("N·m", -9, -6, -3, 0, 3, 6),
     "W": _prefixed("W", -9, -6, -3, 0, 3, 6),
     "W/m": _prefixed("W/m", -6, -3, 0, 3, 6),
-    "kg/s": ((1e-15, "pg/s"), (1e-12, "ng/s"), (1e-9, "µg/s"), (1e-6, "mg/s"), (1e-3, "g/s"), (1.0, "kg/s")),
-    "kg/(m*s)": (
-        (1e-15, "pg/(m·s)"),
-        (1e-12, "ng/(m·s)"),
-        (1e-9, "µg/(m·s)"),
-        (1e-6, "mg/(m·s)"),
-        (1e-3, "g/(m·s)"),
-        (1.0, "kg/(m·s)"),
-    ),
+    "kg/s": _prefixed("g/h", -9, -6, -3, 0, 3, size=1e-3 * _HOUR),
+    "kg/(m*s)": _prefixed("g/(h·m)", -9, -6, -3, 0, 3, size=1e-3 * _HOUR),
     "rad": ((math.pi / 180, "°"),),
     "deg": ((1.0, "°"),),
 }

@@ -1,3 +1,3 @@
-"""Keeps pytest from importing the example programs, which the tests run."""
+"""Keeps pytest from importing the programs of the gallery, which tests/scripts/examples runs."""
 
-collect_ignore = ["python"]
+collect_ignore = ["gallery"]

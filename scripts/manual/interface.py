@@ -31,7 +31,7 @@ def page() -> str:
     True
     """
     lines = ["# Python interface", "", "```python", "import roughfilm as rf", "```", ""]
-    lines += ["All values are in SI units. [Python](../howto/python.md) shows these names in use.", ""]
+    lines += ["All values are in SI units. [Python](../../howto/python.md) shows these names in use.", ""]
     shown: set[str] = set()
     for beginning, heading in SUBJECTS.items():
         names = [

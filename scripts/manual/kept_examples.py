@@ -18,7 +18,8 @@ def restore(kept: Path, gallery: Path, examples: Path) -> None:
     """Copy the kept pages and pictures, and their programs for download, into the gallery before it is built."""
     shutil.copytree(kept, gallery, dirs_exist_ok=True)
     for program in examples.rglob(f"{BEGINNING}*.py"):
-        copy = shutil.copy2(program, gallery / program.relative_to(examples))
+        copy = gallery / program.relative_to(examples)
+        shutil.copy2(program, copy)
         with zipfile.ZipFile(copy.with_suffix(".zip"), "w") as archive:
             archive.write(copy, copy.name)
 

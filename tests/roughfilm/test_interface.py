@@ -17,7 +17,6 @@ from places import ROOT, SCENES, STUDIES
 import roughfilm as rf
 
 HEAVY = ("matplotlib", "numba", "pandas", "pint", "pyvista", "scipy.interpolate", "typer", "xarray")
-EXAMPLES = sorted((ROOT / "scripts" / "examples" / "python").glob("*.py"))
 KINDS = {model.kind for model in rf.models()}
 NAMES = [name for name in rf.__all__ if name != "__version__"]
 
@@ -489,26 +488,6 @@ def test_a_case_that_was_run_has_a_result_and_a_mesh(pocket, tmp_path):
     assert np.ptp(mesh.points[:, 0]) == pytest.approx(length)
     area = mesh.compute_cell_sizes()["Area"].sum()
     assert length * film < area < length * film * (1 + pocket.depth)
-
-
-@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
-def test_an_example_takes_ten_lines_at_most(example):
-    tree = ast.parse(example.read_text(encoding="utf-8"))
-    assert sum((node.end_lineno or 0) - node.lineno + 1 for node in tree.body[1:]) <= 10
-
-
-@pytest.mark.parametrize(
-    "example",
-    [pytest.param(path, marks=pytest.mark.openfoam) if "openfoam" in path.stem else path for path in EXAMPLES],
-    ids=lambda path: path.stem,
-)
-def test_an_example_runs_as_it_stands(example, tmp_path):
-    if "to_dataframe" in example.read_text(encoding="utf-8"):
-        pytest.importorskip("pandas")
-    (tmp_path / "scripts").symlink_to(ROOT / "scripts")
-    done = run(example, cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
-    assert done.stdout or (tmp_path / "load_over_depth.png").stat().st_size > 1000
 
 
 def program(name: str, *arguments: str | Path, cwd: Path) -> str:

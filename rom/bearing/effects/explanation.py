@@ -55,7 +55,7 @@ def _texture(numbers: Numbers) -> str:
         return resolved
     number = numbers["reduced_reynolds_number"]
     size = "small" if number < SMALL_REDUCED_REYNOLDS_NUMBER else "not small"
-    return f"{resolved}; Re·h/l = {number:.2g}: inertia is {size} and estimated separately"
+    return f"{resolved}; reduced Reynolds number Re·h/l = {number:.2g}: inertia is {size} and estimated separately"
 
 
 def _cavitation(numbers: Numbers) -> str:
@@ -64,18 +64,19 @@ def _cavitation(numbers: Numbers) -> str:
     starved = (
         "; without cavitation the starved inlet is treated as flooded" if numbers.get("starvation", 1.0) < 1 else ""
     )
-    return f"mass-conserving; (p_ambient − p_c)/(6ηuL/h²) = {number:.2g}: cavitation is {expected}{starved}"
+    reserve = f"ambient minus cavitation pressure over 6ηuL/h² = {number:.2g}"
+    return f"mass-conserving; {reserve}: cavitation is {expected}{starved}"
 
 
 def _pressure(numbers: Numbers) -> str:
     return (
         "density and viscosity depend on pressure: at 6ηuL/h² (pads carry a few per cent of it) "
-        f"θ − 1 = {numbers['compression']:.2g} and ln η/η₀ = {numbers['piezoviscous']:.2g}"
+        f"compression θ − 1 = {numbers['compression']:.2g} and viscosity ln η/η₀ = {numbers['piezoviscous']:.2g}"
     )
 
 
 def _roughness(numbers: Numbers) -> str:
-    height = f"Sq/h = {numbers['roughness_ratio']:.2g}"
+    height = f"rms height over film Sq/h = {numbers['roughness_ratio']:.2g}"
     if "roughness_period" not in numbers:
         return f"flow factors of its table, {height}"
     period = numbers["roughness_period"]
@@ -85,16 +86,17 @@ def _roughness(numbers: Numbers) -> str:
 
 def _asperities(numbers: Numbers) -> str:
     ratio = numbers["peak_ratio"]
-    return f"table of contact pressures: λ = h/Sq = {1 / numbers['roughness_ratio']:.2g}, " + (
-        f"Sp/h = {ratio:.2g}: the highest tips {'touch' if ratio > 1 else 'do not touch'}"
+    return f"table of contact pressures: film over rms height λ = h/Sq = {1 / numbers['roughness_ratio']:.2g}, " + (
+        f"highest peak over film Sp/h = {ratio:.2g}: the highest tips {'touch' if ratio > 1 else 'do not touch'}"
     )
 
 
 def _inertia(numbers: Numbers) -> str:
     pocket = ", and fully in one pocket" if "pocket_depth_ratio" in numbers else ""
     return (
-        f"Re = {numbers['reynolds_number']:.2g}, Re·h/l = {numbers['reduced_reynolds_number']:.2g}: to first order "
-        f"over the whole film{pocket}; not included in the load of the film"
+        f"Reynolds number Re = {numbers['reynolds_number']:.2g}, reduced one Re·h/l = "
+        f"{numbers['reduced_reynolds_number']:.2g}: to first order over the whole film{pocket}; "
+        "not included in the load of the film"
     )
 
 

@@ -40,7 +40,7 @@ MAX_TOLERANCE = 1e-2
 """Upper limit of the tolerance of the load."""
 
 UNCERTAINTY_SPEEDS = 5
-"""Number of speeds at which the uncertainty is estimated with half as many cells."""
+"""Number of speeds at which the uncertainty is estimated with half as many cells, besides that of the scene."""
 
 EXTRAPOLATION_POINTS = 4
 """Number of points from which the next separation is extrapolated."""
@@ -162,7 +162,7 @@ def stribeck(
 
     Parameters
     ----------
-    scene : the bearing; its speed and film thickness have no effect.
+    scene : the bearing; its film thickness has no effect, and its speed only one on where there are uncertainties.
     speeds : sliding speeds, m/s, 0 or more, without asperities above 0, in any order without repetition.
     pressures : loads over the nominal area, Pa.
     asperities : asperities of the rough wall; by default those of the scene.
@@ -185,6 +185,7 @@ def stribeck(
     done = {(point.pressure, point.speed): point for point in known}
     coarse = replace(film, cells=resolution // 2)
     estimated = {ordered[i] for i in np.linspace(0, len(ordered) - 1, UNCERTAINTY_SPEEDS).round().astype(int)}
+    estimated |= {abs(scene.motion.speed)}
     states: dict[float, State] = {}
     curves: dict[float, list[StribeckPoint]] = {pressure: [] for pressure in sorted(pressures)}
     refused: dict[float, InputError | ConvergenceError] = {}

@@ -1,13 +1,23 @@
 """Bearings: pressure and filled part along the film, and over it where it has a width."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from roughfilm.figures.base import MAX_PIXELS, new_figure, svg, thinned
-from roughfilm.figures.view import Style, View, groups_by
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.figures.base import MAX_PIXELS, new_figure, svg
+from roughfilm.figures.differences import Differences, differences, on_points
+from roughfilm.figures.view import Plot, Style, View, groups_by
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.result import Result
+from roughfilm.words.scales import Scale, scales_of
+
+MAX_COLUMNS = 4
+"""Largest number of models whose differences stand beside each other."""
 
 STYLES = {
     "reynolds": Style(colour="#7f7f7f", line="--", marker="s"),
@@ -20,13 +30,14 @@ STYLES = {
 }
 
 
-def along(scene: Bearing, results: Mapping[str, Result]) -> str:
-    """Film thickness, pressure and θ by every model, on the line of the greatest pressure.
+def along(scene: Bearing, results: Mapping[str, Result], reference: str) -> str:
+    """Film thickness, pressure and density by every model, on the line of the greatest pressure.
 
     Under a load each model has a film of its own.
     """
     figure, (film, pressure, density) = new_figure((9, 6.8), 3, 1, sharex=True, height_ratios=(1, 2.2, 1.5))
-    factor, label = _place(results)
+    (factor, label), scales = _place(results), scales_of([results[reference]])
+    of_film, of_pressure = scales("film_min", "m"), scales("pressure_max", "Pa")
     for number, (name, result) in enumerate(results.items()):
         style = STYLES.get(name, Style())
         row = int(np.argmax(result.fields["pressure"].values.max(axis=0)))
@@ -34,45 +45,103 @@ def along(scene: Bearing, results: Mapping[str, Result]) -> str:
             result.fields[field].values[:, row] for field in ("x", "film_thickness", "pressure", "density_ratio")
         )
         if scene.load is not None:
-            film.plot(x * factor, h * 1e6, linestyle=style.line, color=style.colour)
+            film.plot(x * factor, h / of_film.factor, linestyle=style.line, color=style.colour)
         elif number == 0:
-            film.fill_between(x * factor, h * 1e6, color="#9ecae1", linewidth=0)
+            film.fill_between(x * factor, h / of_film.factor, color="#9ecae1", linewidth=0)
         if name == "direct":
-            film.plot(x * factor, h * 1e6, color=style.colour, linewidth=0.6)
+            film.plot(x * factor, h / of_film.factor, color=style.colour, linewidth=0.6)
         thin = x.size > 2 * MAX_PIXELS and name == "direct"
         look = {"linestyle": style.line, "color": style.colour, "linewidth": 1.0 if thin else 1.8}
-        pressure.plot(x * factor, p * 1e-6, label=name, **look)
+        pressure.plot(x * factor, p / of_pressure.factor, label=name, **look)
         density.plot(x * factor, theta, **look)
-    lowest = scene.lubricant.cavitation_pressure * 1e-6
-    pressure.axhline(lowest, color="black", linewidth=0.8, linestyle=(0, (1, 2)))
-    film.set(ylim=(0, None), ylabel="film, µm")
-    pressure.set_ylabel("pressure above\nambient, MPa")
-    pressure.legend(fontsize=8)
-    density.set(ylabel="density θ;\nbelow 1: filled fraction", xlabel=label + " (dotted: cavitation pressure)")
+    lowest = scene.lubricant.cavitation_pressure / of_pressure.factor
+    pressure.axhline(lowest, color="black", linewidth=0.8, linestyle=(0, (1, 2)), label="cavitation pressure")
+    film.set(ylim=(0, None), ylabel=of_film.label("film thickness"))
+    pressure.set_ylabel(of_pressure.label("pressure\nabove ambient"))
+    density.set(ylabel="relative density θ\n(filled fraction)", xlabel=label)
+    figure.legend(loc="outside upper center", ncols=4, fontsize=8)
+    figure.align_ylabels()
     return svg(figure)
 
 
-def over(results: Mapping[str, Result]) -> str:
-    """Pressure and θ over the film by the models that keep its width, in the same colours."""
+def over(results: Mapping[str, Result], reference: str) -> Plot:
+    """Pressure and density over the film by the reference model, and the differences of the others that keep its width.
+
+    Differences in one quantity have the same colours.
+    """
     planes = {name: result for name, result in results.items() if result.fields["pressure"].values.shape[1] > 1}
-    figure, panels = new_figure((10, 0.5 + 2.6 * len(planes)), len(planes), 2, squeeze=False)
-    factor, label = _place(planes)
-    kinds = (("pressure", "pressure, MPa", 1e-6, "magma"), ("density_ratio", "θ", 1.0, "cividis"))
-    for column, (field, title, scale, colours) in zip(panels.T, kinds, strict=True):
-        drawn = {name: thinned(result.fields[field].values) * scale for name, result in planes.items()}
-        low, high = min(v.min() for v in drawn.values()), max(v.max() for v in drawn.values())
-        if field == "density_ratio":  # a film that is whole everywhere is to look so
-            low, high = min(low, 0.9), max(high, 1.0)
-        for axes, (name, values) in zip(column, drawn.items(), strict=True):
-            x, y = (thinned(planes[name].fields[place].values) for place in ("x", "y"))
-            image = axes.pcolormesh(
-                x * factor, y * 1e3, values, cmap=colours, vmin=low, vmax=high, shading="nearest", rasterized=True
-            )
-            axes.grid(visible=False)
-            axes.set_title(name, fontsize=9)
-            axes.set(xlabel=label, ylabel="across, mm")
-        figure.colorbar(image, ax=column, label=title, shrink=0.9)
-    return svg(figure)
+    shown = reference if reference in planes else [*planes][-1]
+    result, (factor, label) = planes[shown], _place(planes)
+    place = [result.fields["x"].values[:, 0], result.fields["y"].values[0]]
+    scales = scales_of([result])
+    fields = {
+        "pressure": ("pressure", scales("pressure_max", "Pa"), "pressure_max", "magma"),
+        "density_ratio": ("relative density θ", Scale(factor=1.0, unit=""), "theta_min", "cividis"),
+    }
+    found = {}
+    for name, (title, scale, decided_by, _) in fields.items():
+        maps = {model: _on(one, name, place) for model, one in planes.items()}
+        found[name] = differences(maps, shown, title, scale, result.quantities[decided_by].uncertainty)
+    others = [model for model in planes if any(model in one.drawn for one in found.values())]
+    columns = max(2, min(len(others), MAX_COLUMNS))
+    unequal = {name: one for name, one in found.items() if one.drawn}
+    rows = 1 if len(others) == 1 else len(unequal) * -(-len(others) // columns)
+    figure = Figure(figsize=(10, 3.4 + 2.1 * rows), layout=ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.08))
+    spaces = figure.add_gridspec(2 if rows else 1, 1, height_ratios=(3.4, 2.1 * rows)[: 2 if rows else 1])
+    x, y = place[0] * factor, place[1] * 1e3
+    upper: Any = spaces[0].subgridspec(1, 2).subplots()
+    for axes, (name, (title, scale, _, colours)) in zip(upper, fields.items(), strict=True):
+        values = result.fields[name].values / scale.factor
+        # a film that is whole everywhere is to look so
+        limits = {"vmin": min(values.min(), 0.9), "vmax": max(values.max(), 1.0)} if name == "density_ratio" else {}
+        image = _map(axes, x, y, values, cmap=colours, **limits)
+        axes.set_title(f"{title} by {shown}", fontsize=9)
+        axes.set(xlabel=label, ylabel="across, mm")
+        figure.colorbar(image, ax=axes, label=scale.label(title))
+    if rows:
+        panels = spaces[1].subgridspec(rows, columns).subplots(squeeze=False, sharex=True, sharey=True)
+        _difference_maps(panels, unequal, fields, others, (x, y), label)
+    return Plot(svg=svg(figure), words=tuple(words for one in found.values() for words in one.words))
+
+
+def _difference_maps(
+    panels: Any,
+    found: Mapping[str, Differences],
+    fields: Mapping[str, Any],
+    others: Sequence[str],
+    place: tuple[Array, Array],
+    label: str,
+) -> None:
+    """Draw the differences of the other models: pressure above density, or beside it if there is one other model."""
+    for axes in panels.flat:
+        axes.set_axis_off()
+    for row, (name, one) in enumerate(found.items()):
+        line = panels[:, row : row + 1] if len(others) == 1 else panels[row :: len(found)]
+        for axes, model in zip(line.flat, others, strict=False):
+            if model not in one.drawn:
+                continue
+            axes.set_axis_on()
+            image = _map(axes, *place, one.drawn[model], **one.colours)
+            axes.set_title(model, fontsize=9)
+            axes.set_xlabel(label, fontsize=8)
+            axes.set_ylabel("across, mm", fontsize=8)
+            axes.label_outer()
+        title, scale = fields[name][:2]
+        axes.figure.colorbar(image, ax=line, label=scale.label(f"difference\nin {title}"), shrink=0.95)
+
+
+def _map(axes: Axes, x: Array, y: Array, values: Array, **look: Any) -> Any:
+    """Draw values of shape (nx, ny) over their places."""
+    axes.grid(visible=False)
+    steps = tuple(slice(None, None, max(1, -(-count // MAX_PIXELS))) for count in values.shape)
+    drawn = np.asarray(values)[steps].T
+    return axes.pcolormesh(x[steps[0]], y[steps[1]], drawn, shading="nearest", rasterized=True, **look)
+
+
+def _on(result: Result, field: str, place: Sequence[Array]) -> Array:
+    """A field of a result on the points of the reference."""
+    own = [result.fields["x"].values[:, 0], result.fields["y"].values[0]]
+    return on_points(own, result.fields[field].values, place)
 
 
 def _place(results: Mapping[str, Result]) -> tuple[float, str]:
@@ -81,28 +150,45 @@ def _place(results: Mapping[str, Result]) -> tuple[float, str]:
     return (np.degrees(1.0), "angle, degrees") if angle else (1e3, "position along the sliding, mm")
 
 
-def plots(scene: Bearing, results: Mapping[str, Result]) -> dict[str, str]:
+def plots(scene: Bearing, results: Mapping[str, Result], reference: str) -> dict[str, Plot]:
     """The figures of a comparison; maps only where a model keeps the width."""
     plane = any(result.fields["pressure"].values.shape[1] > 1 for result in results.values())
-    return {"along": along(scene, results), **({"over": over(results)} if plane else {})}
+    lines = {"along": Plot(svg=along(scene, results, reference))}
+    return lines | ({"over": over(results, reference)} if plane else {})
 
 
 VIEW = View(
     page="bearing.html.j2",
     styles=STYLES,
-    labels={"film_min": "least film", "load_per_width": "load per width", "friction_per_width": "friction per width"},
-    headings={
-        "film_min": "least<br>film",
-        "load_per_width": "load<br>per width",
-        "friction_per_width": "friction<br>per width",
-        "friction_coefficient": "friction<br>coefficient",
-        "power_loss_per_width": "power loss<br>per width",
-        "pressure_max": "greatest<br>pressure",
-        "film_start": "first film<br>begins, x/L",
-        "rupture": "last film<br>ends, x/L",
-    },
+    cards=(
+        "film_min",
+        "load",
+        "friction_coefficient",
+        "power_loss",
+        "pressure_max",
+        "contact_share",
+        "cavitated_fraction",
+        "eccentricity",
+    ),
+    rows=(
+        "film_min",
+        "eccentricity",
+        "attitude_angle",
+        "load",
+        "contact_share",
+        "friction",
+        "friction_coefficient",
+        "power_loss",
+        "pressure_max",
+        "inlet_flow",
+        "side_leakage",
+        "cavitated_fraction",
+        "film_start",
+        "rupture",
+    ),
     plots=plots,
+    line="along",
     groups=groups_by("shape"),
     errors="of the load and of the friction on the sliding wall",
-    ordering="θ of the inlet, ϑ at 6ηuL/h² and B/L",
+    ordering="the relative density θ of the inlet, the compression ϑ at the pressure 6ηuL/h² and width over length B/L",
 )

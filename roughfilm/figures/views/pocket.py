@@ -9,13 +9,16 @@ from matplotlib.colors import LogNorm
 from numpy.typing import NDArray
 
 from roughfilm.figures.base import new_figure, svg
-from roughfilm.figures.view import Style, View
+from roughfilm.figures.differences import differences
+from roughfilm.figures.streamlines import shown
+from roughfilm.figures.view import Plot, Style, View
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.sweeping import Columns
 from roughfilm.rom.pocket.kind import KIND
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.studies.reference import Reference, interval
 from roughfilm.rom.studies.sweep import Sweep, relative_error
+from roughfilm.words.scales import Scale, scales_of
 
 MIN_PERCENT = 1e-3
 
@@ -29,26 +32,94 @@ STYLES = {
 }
 
 
-def pressure(scene: Pocket, results: Mapping[str, Result]) -> str:
+def pressure(scene: Pocket, results: Mapping[str, Result], reference: str) -> str:
     """Pressure on the sliding wall by every model, with the edges of the grooves."""
-    figure, axes = new_figure((9, 4.2))
+    figure, axes = new_figure((9, 4.4))
+    scale = scales_of([results[reference]])("pressure", "Pa")
     for name, result in results.items():
-        plus = result.fields["pressure"].values / scene.pressure_unit * scene.plus_factor
         x = result.fields["position"].values * 1e3
         style = STYLES.get(name, Style())
-        axes.plot(x, plus, linestyle=style.line, color=style.colour, label=name, linewidth=2)
-    for edge in {edge for groove in scene.grooves for edge in groove.span}:
-        axes.axvline(edge * 1e3, color="black", linewidth=0.8, linestyle=(0, (4, 3)), alpha=0.6)
-    axes.set(xlabel="position along the sliding wall, mm (dashed: groove edges)", ylabel="p+ = 100 p Ly² / (η u Lx)")
-    pascal = scene.pressure_unit / scene.plus_factor
-    right = axes.secondary_yaxis("right", functions=(_times(pascal / 1e3), _times(1e3 / pascal)))
-    right.set_ylabel("pressure, kPa")
-    axes.legend()
+        p = result.fields["pressure"].values / scale.factor
+        axes.plot(x, p, linestyle=style.line, color=style.colour, label=name, linewidth=2)
+    for number, edge in enumerate(sorted({edge for groove in scene.grooves for edge in groove.span})):
+        axes.axvline(
+            edge * 1e3,
+            color="black",
+            linewidth=0.8,
+            linestyle=(0, (4, 3)),
+            alpha=0.6,
+            label=None if number else "edges of the groove" + ("s" if len(scene.grooves) > 1 else ""),
+        )
+    axes.set(xlabel="position along the sliding wall, mm", ylabel=scale.label("pressure"))
+    unit = scene.pressure_unit / scene.plus_factor / scale.factor
+    right = axes.secondary_yaxis("right", functions=(_times(1 / unit), _times(unit)))
+    right.set_ylabel("dimensionless pressure\np+ = 100 p Ly² / (η u Lx)")
+    figure.legend(loc="outside upper center", ncols=4, fontsize=8)
     return svg(figure)
 
 
 def _times(factor: float) -> Callable[[Any], Any]:
     return lambda value: value * factor
+
+
+def flows(scene: Pocket, results: Mapping[str, Result], reference: str) -> Plot | None:
+    """The differences in the speed of the liquid from the reference model; None where it does not resolve the film.
+
+    Speeds are over the sliding speed, on the cells of the reference.
+    """
+    resolved = {name: result for name, result in results.items() if "cell_velocity" in result.fields}
+    if reference not in resolved or len(resolved) < 2:
+        return None
+    top = resolved[reference]
+    speeds = {name: _speed_on(result, top, scene.speed) / scene.speed for name, result in resolved.items()}
+    found = differences(speeds, reference, "speed", Scale(factor=0.01, unit="% of the sliding speed"))
+    if not found.drawn:
+        return Plot(svg="", words=found.words)
+    vertices = top.fields["vertices"].values
+    window = shown(vertices)
+    x, y = vertices[window, :, 0] * 1e6, vertices[window, :, 1] * 1e6
+    inside = slice(window.start, window.stop - 1)
+    figure, panels = new_figure((10, 0.5 + 1.9 * len(found.drawn)), len(found.drawn), 1, squeeze=False, sharex=True)
+    for axes, (name, values) in zip(panels[:, 0], found.drawn.items(), strict=True):
+        image = axes.pcolormesh(x, y, values[inside], rasterized=True, **found.colours)
+        axes.grid(visible=False)
+        axes.set_title(f"{name} minus {reference}", fontsize=9)
+        axes.set_ylabel("height, µm")
+    panels[-1, 0].set_xlabel("position along the sliding wall, µm")
+    figure.colorbar(image, ax=panels, label="difference in speed,\n% of the sliding speed", shrink=0.9)
+    return Plot(svg=svg(figure), words=found.words)
+
+
+def _speed_on(result: Result, other: Result, sliding: float) -> NDArray[np.float64]:
+    """The speed in the cells of another result, linear between them, and 0 and ``sliding`` on the walls."""
+    heights, places, speed = _cells(result)
+    at, across, _ = _cells(other)
+    if heights.shape == at.shape and np.allclose(heights, at) and np.allclose(places, across):
+        return speed
+    period = float(np.ptp(result.fields["vertices"].values[:, 0, 0]))
+    around = np.concatenate([places[-1:] - period, places, places[:1] + period])
+    columns = np.concatenate([[-1], np.arange(places.size), [0]])
+    middle = at.mean(axis=0)
+    ends = [np.concatenate([[0.0], one, [1.0]]) for one in heights]
+    profiles = [np.concatenate([[0.0], one, [sliding]]) for one in speed]
+    levels = np.array([np.interp(middle, *one) for one in zip(ends, profiles, strict=True)])[columns]
+    return np.array([np.interp(across, around, level) for level in levels.T]).T
+
+
+def _cells(result: Result) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """The cells of a result: heights over the gap, shape (nx, ny), places along, shape (nx,), and speeds, m/s."""
+    vertices, velocity = result.fields["vertices"].values, result.fields["cell_velocity"].values
+    middle = (vertices[:-1, :-1] + vertices[1:, :-1] + vertices[:-1, 1:] + vertices[1:, 1:]) / 4
+    low, high = ((vertices[:-1, end, 1] + vertices[1:, end, 1]) / 2 for end in (0, -1))
+    heights = (middle[..., 1] - low[:, None]) / (high - low)[:, None]
+    return heights, middle.mean(axis=1)[:, 0], np.linalg.norm(velocity, axis=2)
+
+
+def plots(scene: Pocket, results: Mapping[str, Result], reference: str) -> dict[str, Plot]:
+    """The figures of a comparison; differences of flows where several models resolve the film."""
+    lines = {"pressure": Plot(svg=pressure(scene, results, reference))}
+    found = flows(scene, results, reference)
+    return lines | ({"flows": found} if found else {})
 
 
 def _shapes(given: Columns) -> list[tuple[str, float]]:
@@ -121,20 +192,24 @@ def _short(value: float) -> str:
 VIEW = View(
     page="pocket.html.j2",
     styles=STYLES,
-    labels={"load_plus": "load Fy+", "friction_plus": "friction Fx+"},
-    headings={
-        "load_plus": "load<br>F<sub>y</sub>+",
-        "friction_plus": "friction<br>F<sub>x</sub>+",
-        "pressure_max_plus": "max p+",
-        "pressure_min_plus": "min p+",
-        "backflow": "reverse flow",
-    },
-    plots=lambda scene, results: {"pressure": pressure(scene, results)},
+    cards=("friction_per_area", "load_plus", "friction_plus", "backflow"),
+    rows=(
+        "load_per_area",
+        "friction_per_area",
+        "load_plus",
+        "friction_plus",
+        "pressure_max_plus",
+        "pressure_min_plus",
+        "backflow",
+    ),
+    plots=plots,
+    line="pressure",
     drawing="roughfilm.figures.streamlines",
     groups=groups,
     maps=error_maps,
     errors="of the load and of the friction on the sliding wall",
     left_out=" Cases whose load is under a twentieth of the greatest pressure are left out here and in the table "
     "above: their load is the difference of two larger ones.",
-    ordering="Re, depth d/Ly, 2d/w and the slope of the steeper side",
+    ordering="the Reynolds number Re, depth over film d/Ly, twice the depth over the width 2d/w and the slope of the "
+    "steeper side",
 )

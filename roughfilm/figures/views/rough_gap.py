@@ -1,14 +1,19 @@
 """Rough gaps: where the liquid passes, and how fast it is across the gap."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import model_map, new_figure, svg, thinned
-from roughfilm.figures.view import Style, View, groups_by
+from roughfilm.figures.differences import QUANTILE, differences, on_points
+from roughfilm.figures.view import Plot, Style, View, groups_by
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.words.scales import scale_for, scales_of
 
 STYLES = {
     "smooth_gap": Style(colour="#7f7f7f", line=":", marker="s"),
@@ -20,7 +25,13 @@ STYLES = {
 
 CONTACT = "#b9c2cc"
 
-COEFFICIENTS = ("A11", "A22", "B1", "friction")
+COEFFICIENTS = {
+    "A11": "flow along x (A11)",
+    "A22": "flow along y (A22)",
+    "B1": "flow by sliding (B1)",
+    "friction": "friction",
+}
+"""The factors that are drawn, with their names."""
 
 
 def factors(results: Mapping[str, Result]) -> str:
@@ -40,84 +51,114 @@ def factors(results: Mapping[str, Result]) -> str:
                 linestyle="",
             )
         axes.set_yticks(range(len(results)), list(results))
-        axes.set(ylim=(-0.6, len(results) - 0.4), xlabel=f"{name}, relative to a smooth gap")
+        axes.xaxis.set_major_locator(MaxNLocator(4))
+        axes.ticklabel_format(axis="x", useOffset=False)
+        axes.set(ylim=(-0.6, len(results) - 0.4))
+        axes.set_xlabel(f"{COEFFICIENTS[name]}\nover that of a smooth gap", fontsize=9)
         axes.margins(x=0.15)
     return svg(figure)
 
 
-def sections(results: Mapping[str, Result]) -> str:
-    """Speed along x in the section along x where the gap is narrowest, under the gradient along x."""
-    figure, panels = new_figure((10, 2.3 * len(results)), len(results), 1, squeeze=False)
-    fastest = max(float(result.fields["cell_velocity"].values[..., 0].max()) for result in results.values())
-    for axes, (name, result) in zip(panels[:, 0], results.items(), strict=True):
-        vertices, velocity = (result.fields[field].values for field in ("vertices", "cell_velocity"))
-        open_cells = result.fields["kept"].values > 0
-        gap = vertices[:, :, -1, 2] - vertices[:, :, 0, 2]
-        row = int(np.argmin(np.where(open_cells, gap[:-1, :-1], np.inf).min(axis=0)))
-        speed = np.where(open_cells[:, row, None], velocity[:, row, :, 0], np.nan)
-        image = axes.pcolormesh(
-            vertices[:, row, :, 0] * 1e6,
-            vertices[:, row, :, 2] * 1e6,
-            speed * 1e3,
-            cmap="magma",
-            vmin=min(0.0, float(np.nanmin(speed)) * 1e3),
-            vmax=fastest * 1e3,
-            rasterized=True,
-        )
+def sections(results: Mapping[str, Result], reference: str) -> Plot:
+    """Speed along x in the section where the gap is narrowest, by the reference, and the differences of the others."""
+    shown = reference if reference in results else [*results][-1]
+    vertices = results[shown].fields["vertices"].values
+    open_cells = results[shown].fields["kept"].values > 0
+    gap = vertices[:, :, -1, 2] - vertices[:, :, 0, 2]
+    row = int(np.argmin(np.where(open_cells, gap[:-1, :-1], np.inf).min(axis=0)))
+    same = {
+        name: one for name, one in results.items() if one.fields["cell_velocity"].values.shape[:2] == gap[1:, 1:].shape
+    }
+    speeds = {
+        name: np.where(open_cells[:, row, None], one.fields["cell_velocity"].values[:, row, :, 0], np.nan)
+        for name, one in same.items()
+    }
+    scale = scale_for("m/s", float(np.nanmax(speeds[shown])))
+    flow = results[shown].quantities["A11"]
+    bar = float(np.nanmax(speeds[shown])) * (flow.uncertainty or 0.0) / flow.value if flow.value else 0.0
+    found = differences(speeds, shown, "speed along x in this section", scale, bar)
+    figure, panels = new_figure((10, 2.5 * (1 + len(found.drawn))), 1 + len(found.drawn), 1, squeeze=False, sharex=True)
+    least = min(0.0, float(np.nanmin(speeds[shown])) / scale.factor)
+    drawn = {shown: speeds[shown] / scale.factor, **found.drawn}
+    for axes, (name, values) in zip(panels[:, 0], drawn.items(), strict=True):
+        look = {"cmap": "magma", "vmin": least} if name == shown else found.colours
+        x, z = (vertices[:, row, :, part] * 1e6 for part in (0, 2))
+        image = axes.pcolormesh(x, z, values, rasterized=True, **look)
         axes.set_facecolor(CONTACT)
         axes.grid(visible=False)
-        axes.set_title(f"{name}, y = {vertices[0, row, 0, 1] * 1e6:.3g} µm", fontsize=9)
+        place = f"y = {vertices[0, row, 0, 1] * 1e6:.3g} µm"
+        axes.set_title(f"by {shown}, {place}" if name == shown else f"{name} minus {shown}", fontsize=9)
         axes.set_ylabel("z, µm")
-        figure.colorbar(image, ax=axes, label="speed along x, mm/s")
+        figure.colorbar(image, ax=axes, label=scale.label("speed along x" if name == shown else "difference"))
     panels[-1, 0].set_xlabel("x, µm")
-    return svg(figure)
+    return Plot(svg=svg(figure), words=found.words)
 
 
-def maps(scene: RoughGap, results: Mapping[str, Result]) -> str:
-    """The gap, and the flow per width under the gradient along x by each of these models."""
-    gap = thinned([*results.values()][-1].fields["gap"].values) * 1e6
-    flows = {name: thinned(result.fields["flow"].values) * 1e6 for name, result in results.items()}
-    strongest = max(float(np.percentile(flow, 99.9)) for flow in flows.values()) or 1.0
-    drawn = [("gap", np.where(gap > 0, gap, np.nan), "cividis", float(gap.max()), "µm")]
-    drawn += [(name, flow, "magma", strongest, "flow per width, mm²/s") for name, flow in flows.items()]
-    figure, panels = new_figure((10, 3.1), 1, len(drawn), sharey=True)
-    for axes, (name, values, colours, top, label) in zip(panels, drawn, strict=True):
-        palette = mpl.colormaps[colours].with_extremes(bad=CONTACT)
-        image = model_map(axes, name, values, scene.surface().size, cmap=palette, vmin=0, vmax=top)
+def maps(scene: RoughGap, results: Mapping[str, Result], reference: str) -> Plot:
+    """The gap, the flow per width by the reference model, and the differences of the other models of these results."""
+    shown = reference if reference in results else [*results][-1]
+    flows = {name: _thinned_to(result, results[shown]) for name, result in results.items()}
+    strongest = float(np.percentile(flows[shown], QUANTILE))
+    scale = scale_for("m^2/s", strongest)
+    flow = results[shown].quantities["A11"]
+    bar = strongest * (flow.uncertainty or 0.0) / flow.value if flow.value else 0.0
+    found = differences(flows, shown, "flow", scale, bar)
+    gap = thinned(results[shown].fields["gap"].values)
+    of_gap = scales_of([results[reference]])("mean_gap", "m")
+    label = scale.label("flow per width")
+    drawn: list[tuple[str, Array, dict[str, Any], str]] = [
+        ("gap", np.where(gap > 0, gap / of_gap.factor, np.nan), {"cmap": "cividis", "vmin": 0}, of_gap.label("gap")),
+        (
+            f"flow by {shown}",
+            flows[shown] / scale.factor,
+            {"cmap": "magma", "vmin": 0, "vmax": strongest / scale.factor},
+            label,
+        ),
+    ]
+    drawn += [
+        (f"{name} minus {shown}", one, found.colours, f"difference in\n{label}") for name, one in found.drawn.items()
+    ]
+    figure, panels = new_figure((10, 3.3), 1, len(drawn), sharey=True)
+    for axes, (title, values, look, name) in zip(panels, drawn, strict=True):
+        palette = mpl.colormaps[look.pop("cmap")].with_extremes(bad=CONTACT)
+        image = model_map(axes, title, values, scene.surface().size, cmap=palette, **look)
         axes.label_outer()
-        figure.colorbar(image, ax=axes, label=label, shrink=0.85)
-    return svg(figure)
+        figure.colorbar(image, ax=axes, label=name, shrink=0.85)
+    return Plot(svg=svg(figure), words=found.words)
 
 
-def plots(scene: RoughGap, results: Mapping[str, Result]) -> dict[str, str]:
+def _thinned_to(result: Result, other: Result) -> Array:
+    """The flow of a result on the points of another one, of one period both."""
+    own, wanted = (one.fields["flow"].values.shape for one in (result, other))
+    if own == wanted:
+        return np.asarray(thinned(result.fields["flow"].values))
+    places = [[(np.arange(count) + 0.5) / count for count in shape] for shape in (own, wanted)]
+    return np.asarray(thinned(on_points(places[0], result.fields["flow"].values, places[1])))
+
+
+def plots(scene: RoughGap, results: Mapping[str, Result], reference: str) -> dict[str, Plot]:
     """The figures of a comparison: sections where a model resolves the film, maps where the gap varies both ways."""
-    shown = {"factors": factors(results)}
+    shown = {"factors": Plot(svg=factors(results))} if len(results) > 1 else {}
     resolved = {name: result for name, result in results.items() if "cell_velocity" in result.fields}
     if resolved:
-        shown["sections"] = sections(resolved)
+        shown["sections"] = sections(resolved, reference)
     thin = {name: result for name, result in results.items() if name == "homogenized"}
-    mapped = thin | dict([*resolved.items()][-1:])
+    top = {reference: resolved[reference]} if reference in resolved else dict([*resolved.items()][-1:])
+    mapped = thin | top
     if mapped and min(scene.surface().shape) > 2:
-        shown["maps"] = maps(scene, mapped)
+        shown["maps"] = maps(scene, mapped, reference)
     return shown
 
 
 VIEW = View(
     page="rough_gap.html.j2",
     styles=STYLES,
-    labels={"A11": "flow along x", "A22": "flow along y"},
-    headings={
-        "A11": "A<sub>11</sub>/h̄³",
-        "A22": "A<sub>22</sub>/h̄³",
-        "A12": "A<sub>12</sub>/h̄³",
-        "B1": "B<sub>1</sub>/h̄",
-        "friction": "friction<br>τ h̄/(ηu)",
-        "flow_per_width_x": "flow along x<br>per width",
-    },
+    cards=("A22", "flow_per_width_x", "flow_per_width_y", "friction", "contact_area"),
+    rows=("A11", "A22", "A12", "flow_per_width_x", "flow_per_width_y", "B1", "friction", "mean_gap", "contact_area"),
     plots=plots,
     drawing="roughfilm.figures.gap_view",
     groups=groups_by("rough_surface"),
     errors="of the flow along x and of the flow along y",
-    ordering="slope g', Sq/h̄ and Re",
+    ordering="the rms slope g', rms height over mean gap Sq/h̄ and the Reynolds number Re",
     left_out=" Cases that are almost closed are left out.",
 )

@@ -423,7 +423,8 @@ def test_inertia_that_no_model_of_a_bearing_includes_is_that_of_a_wide_wedge_to_
     half = kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s", "density": "400 kg/m^3"}})
     assert whole.part == pytest.approx(2 * kind.omitted(half, "load_per_width").part, rel=1e-9)
     assert whole.reason.startswith(
-        "Re·h/L = 0.064: inertia, which no model of a bearing includes, changes the load by about "
+        "reduced Reynolds number Re·h/L = 0.064: inertia, which no model of a bearing includes, "
+        "changes the load by about "
     )
     assert kind.omitted(kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s"}}), "load_per_width") is None
 

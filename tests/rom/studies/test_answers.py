@@ -7,7 +7,8 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.studies.answers import Sense, answer_of, optimum, sense_of, wanted_quantity
 from roughfilm.rom.studies.parameters import parameters
 from roughfilm.rom.studies.sweep import Sweep
-from roughfilm.words.sweep import Scale, best_sentence, unranked_sentence
+from roughfilm.words.scales import Scale
+from roughfilm.words.sweep import best_sentence, unranked_sentence
 
 BEST_RATIO, BEST_STEP = 1.866, 0.718
 """Ratio of the films and place of the step of the Rayleigh step of the greatest load: Rayleigh 1918."""

@@ -10,7 +10,7 @@ from roughfilm.rom.studies.table import Column
 def test_a_length_keeps_the_unit_of_its_author():
     (depth,) = parameters({"depth": ["2.5 um", "7.5 um", "10 um"]})
     assert depth.values == pytest.approx([2.5, 7.5, 10])
-    assert (depth.label, depth.text(1)) == ("depth, um", "7.5 um")
+    assert (depth.label, depth.text(1)) == ("depth, µm", "7.5 µm")
 
 
 def test_a_multiple_of_another_length_says_so():
@@ -21,7 +21,7 @@ def test_a_multiple_of_another_length_says_so():
 def test_values_in_several_units_are_given_in_the_first_one():
     table = {"depth": Column(values=[5e-6, 1e-5], unit="m")}
     (depth,) = parameters({"depth": ["5 um", "0.01 mm"]}, table, [0, 1])
-    assert depth.unit == "um"
+    assert depth.unit == "µm"
     assert depth.values == pytest.approx([5, 10])
 
 

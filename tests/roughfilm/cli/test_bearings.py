@@ -1,8 +1,10 @@
 """Commands on bearings: solve, compare on a line and in the plane, batch and report."""
 
 import csv
+import html
 import json
 import math
+import re
 from html.parser import HTMLParser
 
 import pytest
@@ -124,6 +126,22 @@ def test_compare_in_the_plane(tmp_path):
     page = page_of(tmp_path / "study" / "report.html")
     assert page.outside == []
     assert page.tags.count("svg") == 4
+    text = (tmp_path / "study" / "report.html").read_text(encoding="utf-8")
+    assert one_unit_each(text) == {"load": "kN", "friction": "N", "least film thickness": "µm", "peak pressure": "MPa"}
+    assert re.search(r'class="answer">Load: [\d.]+ ± [\d.]+ kN<', text)
+    assert '"name":"pressure above ambient","unit":"MPa"' in html.unescape(text)
+    assert "The pressure by reynolds_incompressible is that by reynolds_cavitating." in text
+
+
+def one_unit_each(page):
+    """The unit of some quantities in all tables of a page."""
+    found = {}
+    for cell in re.findall(r"<t[dh][^>]*>(?:change of<br>)?([^<]+)</t[dh]>", page):
+        name, _, unit = cell.rpartition(", ")
+        if name in ("load", "friction", "least film thickness", "peak pressure"):
+            found.setdefault(name, set()).add(unit)
+    assert all(len(units) == 1 for units in found.values()), found
+    return {name: units.pop() for name, units in found.items()}
 
 
 def test_batch_and_report(tmp_path):

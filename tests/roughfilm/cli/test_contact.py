@@ -24,6 +24,7 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.figures.rendering import probe
 from roughfilm.rom.ladder.model import Availability
 from roughfilm.terminal.ranges import loads_of
+from roughfilm.words.numbers import with_error
 
 ABSENT = Availability(available=False, detail="left out in a test")
 STEEL = ("--modulus", "210GPa", "--poisson", "0.3")
@@ -103,7 +104,9 @@ def test_json_is_one_object_with_every_number_of_every_load(rough):
         assert row["area_fraction_pixel"] * 4e9 >= row["load"]
         assert row["pressure_max"] <= 4e9
     last = answer["series"][-1]
-    assert answer["quantities"]["mean_gap"] == {"value": last["mean_gap"], "unit": "m"}
+    gap = answer["quantities"]["mean_gap"]
+    assert gap["value"] == last["mean_gap"]
+    assert 0 < gap["uncertainty"] < 0.1 * gap["value"]
     index = answer["quantities"]["plasticity_index"]["value"]
     assert index == pytest.approx(last["plastic_fraction"] / last["area_fraction_pixel"])
     assert answer["numerics"]["residual"] == max(row["complementarity"] for row in answer["series"])
@@ -249,9 +252,24 @@ def test_people_get_a_table_and_a_page(rough, tmp_path):
     assert f"written: {tmp_path / 'page.html'}" in done.stdout
     page = (tmp_path / "page.html").read_text()
     assert page.count("<svg") == 5
-    for title in ("Area", "Mean gap", "Pressure and gap at 4 GPa", "Section at 4 GPa", "Pressures", "Numbers"):
+    for title in ("Area", "Mean gap", "Pressure and gap at 4000 MPa", "Section at 4000 MPa", "Pressures", "Results"):
         assert f"<h2>{title}</h2>" in page
     assert not re.search(r'(src|href)="http', page)
+
+
+def test_the_page_begins_with_area_and_gap_at_the_asked_loads(rough, tmp_path):
+    answer = told(rough, *PLASTIC, "--loads", "100MPa,1GPa", "--report", tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text()
+    first = page[page.index("<h1>") : page.index("<h2>")]
+    last = answer["quantities"]
+    area, gap = (
+        with_error(*(factor * last[name][number] for number in ("value", "uncertainty")))
+        for name, factor in (("area_fraction", 100), ("mean_gap", 1e6))
+    )
+    assert f"<b>{area} %</b>" in first
+    assert f"mean gap {gap} µm" in first
+    assert [first.count(f"in contact at {load} MPa") for load in (100, 1000)] == [1, 1]
+    assert not re.search(r"\d [kG]Pa", first.replace("modulus E* 230.8 GPa", "").replace("hardness 4 GPa", ""))
 
 
 def test_the_surface_is_pictured_under_its_loads(rough, monkeypatch, tmp_path):
@@ -265,7 +283,7 @@ def test_the_page_of_a_line_has_a_profile_and_no_map(wave, tmp_path):
     assert run(wave, *STEEL, "--spacing", "1um", "--loads", "10MPa", "--report", tmp_path / "p.html").exit_code == 0
     page = (tmp_path / "p.html").read_text()
     assert "<h2>Profile at 10 MPa</h2>" in page
-    assert page.count("<svg") == 4
+    assert page.count("<svg") == 2
 
 
 @pytest.mark.parametrize("model", ["persson", "greenwood_williamson", "bearing_area"])

@@ -1,6 +1,7 @@
 """roughfilm effects as people call it."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from roughfilm.cli.main import app
 from roughfilm.rom.bearing.effects.ablation import EFFECTS
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene, read_scene
+from roughfilm.words.numbers import with_error
 
 COARSE = ("--set", "roughness.surface.points=[32, 32]", "--set", "roughness.surface.correlation_length=60um")
 
@@ -67,7 +69,7 @@ def test_inertia_is_told_beside_and_not_within(pad: tuple[Path, dict[str, Any]])
 def test_the_page_is_whole(pad: tuple[Path, dict[str, Any]]) -> None:
     out, entries = pad
     page = (out / "report.html").read_text(encoding="utf-8")
-    assert page.count("<svg") == 2
+    assert page.count("<svg") == 3
     for one in entries["treatments"]:
         assert one["why"].split(",")[0] in page
     for words in (
@@ -80,10 +82,29 @@ def test_the_page_is_whole(pad: tuple[Path, dict[str, Any]]) -> None:
     assert {path.name for path in out.iterdir()} == {
         "report.html",
         "effects.json",
+        "effects.svg",
         "effects_at_film.svg",
         "effects_under_load.svg",
     }
     assert json.loads((out / "effects.json").read_text(encoding="utf-8"))["at_film"] == entries["at_film"]
+
+
+def test_the_page_begins_with_load_film_and_friction(
+    pad: tuple[Path, dict[str, Any]],
+) -> None:
+    out, entries = pad
+    page = (out / "report.html").read_text(encoding="utf-8")
+    first = page[page.index("<h1>") : page.index("Model of each effect")]
+    load, film = (
+        with_error(*(factor * entries[view]["full"][name][number] for number in ("value", "uncertainty")))
+        for view, name, factor in (("at_film", "load", 1.0), ("under_load", "film", 1e6))
+    )
+    assert first.index(f"<b>{load} N</b>") < first.index(f"<b>{film} µm</b>") < first.index("friction at the film")
+    heads = re.findall(r"<th>([^<]+)<br>([^<]*)</th>", first)
+    assert heads == [("load", "N"), ("film thickness", "µm"), ("friction", "N")]
+    rows = re.findall(r"<tr[^>]*><td>(.*?)</td>", first)
+    names = [f"+ {one['name']}" for one in entries["at_film"]["contributions"]]
+    assert rows == ["plain film", *names, "all effects", "inertia, not counted"]
 
 
 def test_what_a_scene_lacks_is_left_out_and_said(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -16,6 +17,7 @@ from roughfilm.cli.main import app
 from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.table.store import load_table
+from roughfilm.words.numbers import with_error
 
 SURFACE = """
 kind = "self_affine"
@@ -163,8 +165,14 @@ def test_contacts_that_make_no_table_are_refused_in_one_line(surface, tmp_path):
 
 def test_the_page_of_one_gap(surface, tmp_path):
     page = tmp_path / "G.html"
-    assert run(surface, "--gap", "0.5um", "--report", page).exit_code == 0
-    assert page.read_text().count("<svg") == 1
+    found = entries(surface, "--gap", "0.5um", "--report", page)["quantities"]
+    text = page.read_text()
+    assert text.count("<svg") == 1
+    first = text[text.index("<h1>") : text.index("<h2>")]
+    assert "At a mean gap of 0.5 µm, a pressure gradient drives" in first
+    for name in ("A11", "A22", "B1"):
+        value = with_error(found[name]["value"], found[name]["uncertainty"])
+        assert re.search(rf"<b>{value}</b><span>[^<]*<br>\(factor {name}\)", first)
 
 
 @pytest.mark.parametrize(

@@ -54,8 +54,12 @@ def test_every_kind_has_a_view_that_names_its_quantities_and_models():
     for name, kind in kinds().items():
         view = views()[name]
         assert kind.name == name
-        assert set(view.labels) == set(kind.compared).union(*kind.compared_with.values())
-        assert set(kind.compared) <= set(view.headings)
+        known = set(kind.reported) | {one.removesuffix("_per_width") for one in kind.reported}
+        assert {*view.rows, *view.cards} <= known
+        for compared in (kind.compared, *kind.compared_with.values()):
+            assert {name.removesuffix("_per_width") for name in compared} <= {
+                name.removesuffix("_per_width") for name in view.rows
+            }
         assert set(view.styles) == {model.name for model in models() if model.kind == name}
 
 

@@ -108,6 +108,7 @@ def test_a_comparison_shows_every_rung_and_the_film_in_space(tmp_path, monkeypat
     monkeypatch.setattr(compare, "models", lambda _: coarse)
     compare.command(SCENE, out=tmp_path, set_=["mesh.layers=8"])
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert ";scene=turns;" in page or "no picture: " in page
     for name in ("smooth_gap", "homogenized", "slope_corrected", "stokes", "navier_stokes"):
         assert f">{name}" in page
     for heading in ("Flow and friction factors", "Across the gap", "Streamlines"):

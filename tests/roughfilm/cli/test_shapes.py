@@ -58,8 +58,8 @@ def test_the_pressure_plot_marks_the_edges_of_every_groove_and_nothing_else(pock
     edges = []
     for name, overrides in (("pocket", []), ("pocket", ONE), ("two_grooves", [])):
         scene = load_scene(pocket_file.parent / f"{name}.toml", overrides)
-        svg = pressure(scene, {"reynolds": find("pocket", "reynolds").solve(scene)})
-        edges.append(svg.count("stroke-dasharray: 3.2,2.4"))
+        svg = pressure(scene, {"reynolds": find("pocket", "reynolds").solve(scene)}, "reynolds")
+        edges.append(svg.count("stroke-dasharray: 3.2,2.4") - 1)  # that of the legend
     assert edges == [2, 2, 4]
 
 

@@ -17,6 +17,7 @@ from roughfilm.rom.bearing.mixed.store import NUMBERS
 from roughfilm.rom.homogenization.table.store import load_table
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.ranges import loads_of, speeds_of
+from roughfilm.words.numbers import with_error
 
 SCENE = SCENES / "rough_washer.toml"
 COARSE = ("--set", "roughness.surface.points=[32, 32]", "--set", "roughness.surface.correlation_length=0.2 mm")
@@ -186,6 +187,23 @@ def test_another_kind_of_scene_is_refused(tmp_path):
     assert "curves over speed are those of a bearing" in done.stderr
 
 
+def test_the_page_begins_with_the_friction_at_the_speed_of_the_scene(swept, tmp_path, monkeypatch):
+    monkeypatch.setattr("roughfilm.cli.stribeck.ROTATIONAL_SPEEDS", "20rpm,500rpm")
+    table = ("--table", swept[0] / "table.h5", "--set", "motion.speed=1 m/s")
+    done = run("--out", tmp_path, "--loads", "1MPa", *table, "--json")
+    assert done.exit_code == 0, done.stderr
+    (curve,) = json.loads(done.stdout)["curves"]
+    assert len(curve["points"]) == 3
+    (own,) = [point for point in curve["points"] if point["speed"] == 1.0]
+    bar = own["uncertainty"]["friction_coefficient"]
+    assert bar > 0
+    first = (tmp_path / "report.html").read_text().partition("<h2>")[0]
+    turns = f"{60 / (2 * np.pi * 0.165):.4g} rpm"
+    assert f"friction coefficient at the speed of the scene, {turns}, is" in first
+    assert f"<b>{with_error(own['friction_coefficient'], bar)}</b>" in first
+    assert "lift-off at" in first
+
+
 def test_ranges_of_speeds():
     turn = 2 * np.pi / 60
     assert speeds_of("0,30rpm, 2 m/s", 0.1) == (0.0, pytest.approx(30 * turn * 0.1), 2.0)
@@ -223,6 +241,7 @@ def test_a_smooth_bearing_is_swept_under_its_own_load(tmp_path):
     assert all(point["contact_share"] == 0 for point in curve["points"])
     page = (tmp_path / "out" / "report.html").read_text()
     assert "no asperities" in page
+    assert "lift off" not in page
     assert page.count("<svg") == 2
 
 

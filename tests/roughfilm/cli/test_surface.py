@@ -12,6 +12,7 @@ from roughfilm.cli.main import app
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.words.numbers import percent
 
 PARAMETERS = ["Sa", "Sq", "Sp", "Sv", "Sz", "Ssk", "Sku", "Sk", "Spk", "Svk", "Smr1", "Smr2"]
 PARAMETERS += ["Sal", "Str", "Std", "St", "Spm", "Svm"]
@@ -107,6 +108,13 @@ def test_the_page_holds_its_pictures_and_nothing_from_elsewhere(run, csv, tmp_pa
     assert page.count("<svg") == 5
     for title in ("Heights", "Joints", "Bearing curve", "Power spectrum", "Parameters", "Recipe"):
         assert f"<h2>{title}</h2>" in page
+    first = page[page.index("<h1>") : page.index("<h2>")]
+    told = json.loads(run(csv, "--json").stdout)["quantities"]
+    for name in ("Sq", "Sa"):
+        before, after = (1e6 * told[key]["value"] for key in (f"raw_{name}", name))
+        assert f"<b>{after:.4g} µm</b>" in first
+        assert f"{before:.4g} µm measured" in first
+        assert f"{name} changed by {percent(after / before - 1)}" in first
     assert "measured.csv" in page
     assert not re.search(r'(src|href)="http', page)
 

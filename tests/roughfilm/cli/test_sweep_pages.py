@@ -103,10 +103,10 @@ def test_the_best_case_of_a_rayleigh_step_is_the_known_optimum_by_one_model_alon
     assert f"roughfilm report {done}" in run.output
     run, page, entries = report(done)
     best = entries["answers"][0]["best"]
-    assert best["varied"] == {"rise": "8.66 um", "step": "7.18 mm"}
+    assert best["varied"] == {"rise": "8.66 µm", "step": "7.18 mm"}
     assert best["value"] == pytest.approx(LOAD_AT_BEST, rel=1e-3)
     assert run.stdout.splitlines()[-1].startswith("Largest load: 2.06")
-    assert "at rise = 8.66 um, step = 7.18 mm (case 5 of 9), by reynolds_cavitating" in page.text
+    assert "at rise = 8.66 µm, step = 7.18 mm (case 5 of 9), by reynolds_cavitating" in page.text
     assert "one model with results" in page.text
     assert page.headings[0] == "Load over what varies"
 

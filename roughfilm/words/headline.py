@@ -1,0 +1,139 @@
+"""The headline of a page: what the scene asks for, and in sentences which model, how sure, and what it left out."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from roughfilm.rom.advice.stated import BY_ITS_RUN, BY_LAWS, percent, stated_errors
+from roughfilm.rom.ladder.kind import Scene, kind_of, kind_of_scene
+from roughfilm.rom.ladder.model import Model
+from roughfilm.rom.ladder.result import Result
+from roughfilm.words.scales import Scales
+
+STATED = "stated by the run"
+"""Origin of an uncertainty that no grids of a study measure."""
+
+NEGLIGIBLE = 1e-6
+"""Uncertainty over the size of a quantity below which it is not given."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Headline:
+    """The answer of a result.
+
+    Attributes
+    ----------
+    quantity : name of the quantity in the result.
+    title : name of the quantity in a sentence.
+    value : its value ± uncertainty with the unit.
+    sentences : which model, how sure, and what it leaves out.
+    """
+
+    quantity: str
+    title: str
+    value: str
+    sentences: tuple[str, ...]
+
+
+def headline(scene: Scene, result: Result, models: Sequence[Model], scales: Scales, origin: str = STATED) -> Headline:
+    """The answer of a result to what its scene asks: the film under a load, the leakage of a seal, else the load.
+
+    Parameters
+    ----------
+    scene : the scene.
+    result : its result, with its errors.
+    models : all models for this kind of scene.
+    scales : the units of the page.
+    origin : origin of the numerical uncertainty, in words such as "by three grids".
+    """
+    name = asked(result)
+    model = next(one for one in models if one.name == result.model)
+    sealed = result.quantities.get("sealed")
+    included, *rest = model_sentences(scene, model, models)
+    return Headline(
+        quantity=name,
+        title=kind_of(result).reported[name],
+        value="none: no open path" if sealed and sealed.value else scales.text(name, result.quantities[name]),
+        sentences=(included, sureness(result, origin), *rest),
+    )
+
+
+def asked(result: Result) -> str:
+    """The quantity that the scene of a result asks for, of the whole bearing or seal where the result has that."""
+    return whole(next(iter(kind_of(result).compared)), result)
+
+
+def whole(name: str, result: Result) -> str:
+    """The quantity of the whole bearing or seal, or in units of a pressure, in the place of a reduced one.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> result = rf.solve(rf.load_scene("scripts/examples/scenes/pocket.toml"), model="reynolds")
+    >>> whole("load_plus", result)
+    'load_per_area'
+    """
+    base = name.removesuffix("_per_width").removesuffix("_plus")
+    return next(one for one in (f"bearing_{base}", base, f"{base}_per_area", name) if one in result.quantities)
+
+
+def model_sentences(scene: Scene, model: Model, models: Sequence[Model]) -> tuple[str, ...]:
+    """The sentences on a model, on the effects that it keeps, and on those that it leaves out, if there are any."""
+    return tuple(filter(None, (_included(scene, model, models), left_out(scene, model, models))))
+
+
+def _included(scene: Scene, model: Model, models: Sequence[Model]) -> str:
+    """The sentence on the model and the effects that it keeps."""
+    rank = ", the most complete model for this scene" if not _missing(scene, model, models) else ""
+    kept = f", which includes {listed(sorted(model.keeps))}" if model.keeps else f", {model.summary}"
+    return f"By {model.name}{rank}{kept}."
+
+
+def sureness(result: Result, origin: str = STATED) -> str:
+    """The sentence on the numerical uncertainty of the answer and on the error of the model, each with its origin."""
+    kind = kind_of(result)
+    name = next(iter(kind.compared))
+    one, size = result.quantities[name], kind.scale_of(result, name)
+    if one.uncertainty is None or not math.isfinite(one.uncertainty):
+        numerical = "Its numerical uncertainty is unknown"
+    elif one.uncertainty <= NEGLIGIBLE * size:
+        numerical = "Its numerical uncertainty is negligible"
+    else:
+        numerical = f"± is its numerical uncertainty, {percent(one.uncertainty / size)} ({origin})"
+    error = stated_errors(result).get(name)
+    if error is None or not math.isfinite(error.error) or error.source == BY_ITS_RUN:
+        return f"{numerical}; effects that the model leaves out are not in it."
+    if error.source == BY_LAWS:
+        return f"{numerical}; the error of the model is expected to be at most {error.amount} by the fitted laws."
+    return f"{numerical}; the error of the model is {error.words}."
+
+
+def left_out(scene: Scene, model: Model, models: Sequence[Model]) -> str:
+    """The sentence on the effects that a model leaves out: those of other models, and those that no model keeps."""
+    missing = _missing(scene, model, models)
+    partly = [] if model.complete else ["It keeps its effects to some order in a small parameter only."]
+    kind = kind_of_scene(scene)
+    omission = kind.omitted(scene, next(iter(kind.compared)))
+    return " ".join(
+        [
+            *([f"It leaves out {listed(missing)}."] if missing else []),
+            *partly,
+            *([f"{omission.reason[:1].upper()}{omission.reason[1:]}."] if omission and omission.reason else []),
+        ]
+    )
+
+
+def _missing(scene: Scene, model: Model, models: Sequence[Model]) -> list[str]:
+    """The effects that other models for a scene keep and this one leaves out."""
+    applying = (one for one in models if one.applies(scene).applies)
+    return sorted(frozenset[str]().union(*(one.keeps for one in applying)) - model.keeps)
+
+
+def listed(names: Sequence[str]) -> str:
+    """The names in a sentence.
+
+    >>> listed(["load", "friction", "film"])
+    'load, friction and film'
+    """
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last
