@@ -157,6 +157,7 @@ COMMANDS = {
     "report": Command(words=_words("report sweep --json"), before=(BATCH,)),
     "stability": Command(words=_words("stability cell --out map --resolution 64 --jobs 2 --json"), slow=True),
     "charts": Command(words=("charts", "--family", "cavitating slider", "--out", "charts", "--json")),
+    "validate": Command(words=_words("validate --source fowell --source hertz --out numbers --json")),
     "march": Command(words=("march.py",)),
 }
 """The commands by a name that says what they use."""

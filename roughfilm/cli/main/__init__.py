@@ -50,6 +50,7 @@ GROUPS = {
         "charts": "Chart CPU time against error for every model and resolution: charts.html, .json, .csv, .png and an "
         ".svg each.",
         "stability": "Map where solvers converge, and write stability.csv, .json and report.html.",
+        "validate": "Compare published numbers with ours: report.html, validation.json and .md, and an .svg each.",
     },
 }
 """The commands by their use, each with its help in one line; ``roughfilm/cli/<command>.py`` has the command."""

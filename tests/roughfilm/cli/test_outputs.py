@@ -90,6 +90,7 @@ def test_a_file_of_another_kind_is_kept(place, words):
         (["stribeck", SCENES / "rough_washer.toml"], "stribeck.h5"),
         (["charts"], "charts.png"),
         (["stability", "cell"], "report.html"),
+        (["validate"], "validation.json"),
     ],
 )
 def test_a_directory_with_a_file_of_another_kind_is_refused_before_the_work(place, words, name):

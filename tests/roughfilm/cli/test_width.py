@@ -45,6 +45,7 @@ RUNS = {
     "collect": ["collect cases{width} --jobs 1"],
     "export": ["export rough.toml --out rough.vtu"],
     "doctor": ["doctor"],
+    "validate": ["validate --source fowell --out numbers"],
     "cache": ["cache"],
 }
 """Small examples of the commands; report needs the sweep of batch before it, collect the cases of generate."""

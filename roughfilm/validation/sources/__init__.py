@@ -1,0 +1,1 @@
+"""One module for each published source; each ends with ``SOURCE = Source(...)``."""

@@ -1,0 +1,123 @@
+"""Our numbers against the published ones, on coarse grids."""
+
+import numpy as np
+import pytest
+
+from roughfilm.rom.bearing.closed_forms import linear_slider
+from roughfilm.rom.ladder.model import silent
+from roughfilm.validation.finite_volumes import FinitePad, centre_line
+from roughfilm.validation.journal import Grids
+from roughfilm.validation.listing import source
+from roughfilm.validation.published import Verdict
+from roughfilm.validation.sources import (
+    bertocchi,
+    butenschoen,
+    dapp_mueser,
+    lund_thomsen,
+    patir_cheng,
+    raimondi_boyd,
+    wang_mueser,
+)
+
+PAD = FinitePad(
+    length=20e-3,
+    width=10e-3,
+    inlet=1.1e-6,
+    outlet=1e-6,
+    pocket=(4e-3, 10e-3),
+    pocket_width=7e-3,
+    depth=0.4e-6,
+    speed=1.0,
+    ambient=1e5,
+    viscosity=0.01,
+    barus=1.2e-8,
+    c1=2.22e9,
+    c2=1.66,
+)
+
+
+def answer(name):
+    return source(name).answer(False, silent)
+
+
+def verdicts(rows):
+    return {row.verdict for row in rows}
+
+
+@pytest.mark.parametrize("name", ["fowell", "hertz", "westergaard"])
+def test_closed_forms_are_met(name):
+    rows = answer(name).rows
+    assert rows
+    assert verdicts(rows) == {Verdict.WITHIN}
+    assert all(row.uncertainty < row.bar for row in rows)
+
+
+def test_butenschoens_journal_bearing_with_its_misprint(monkeypatch):
+    every = butenschoen.published("butenschoen")
+    chosen = [
+        one
+        for one in every
+        if one["eccentricity_ratio [1]"] == "0.97"
+        or (one["eccentricity_ratio [1]"], one["width_over_diameter [1]"]) in {("0.1", "1"), ("0.7", "0.4")}
+    ]
+    monkeypatch.setattr(butenschoen, "published", lambda _name: chosen)
+    monkeypatch.setattr(butenschoen, "USUAL", Grids(wide=96, close=192))
+    rows = answer("butenschoen").rows
+    suspects = [(row.case, row.quantity) for row in rows if row.verdict is not Verdict.WITHIN]
+    assert suspects == [("ε = 0.97, B/D = 0.25", "attitude angle")]
+    assert next(row for row in rows if row.verdict is Verdict.SUSPECT).evidence.endswith("give 12.4")
+
+
+def test_raimondi_and_boyds_flows_and_attitudes_are_met_and_butenschoen_contradicts_what_is_not(monkeypatch):
+    every = {name: raimondi_boyd.published(name) for name in ("raimondi_boyd", "butenschoen")}
+    every["raimondi_boyd"] = [one for one in every["raimondi_boyd"] if one["eccentricity_ratio [1]"] in {"0.4", "0.97"}]
+    monkeypatch.setattr(raimondi_boyd, "published", every.__getitem__)
+    monkeypatch.setattr(raimondi_boyd, "USUAL", Grids(wide=96, close=192))
+    rows = answer("raimondi_boyd").rows
+    assert verdicts(row for row in rows if "flow" in row.quantity) == {Verdict.WITHIN}
+    loads = [row for row in rows if row.quantity == "Sommerfeld number S"]
+    assert Verdict.OUTSIDE not in verdicts(loads)
+    assert {row.case for row in loads if row.verdict is Verdict.SUSPECT} >= {"ε = 0.97, B/D = 0.25"}
+
+
+def test_lund_and_thomsens_static_points_are_met(monkeypatch):
+    monkeypatch.setattr(lund_thomsen, "CELLS", 90)
+    assert verdicts(answer("lund_thomsen").rows) == {Verdict.WITHIN}
+
+
+def test_finite_volumes_meet_the_wide_slider_of_constant_viscosity():
+    wide = FinitePad(**{**vars(PAD), "width": 2.0, "depth": 0.0, "barus": 0.0, "c1": 1e15})
+    exact = linear_slider(film=1e-6, rise=0.1e-6, length=20e-3, speed=1.0, viscosity=0.01)
+    _, pressure = centre_line(wide, (200, 8))
+    assert pressure.max() - PAD.ambient == pytest.approx(exact.pressure_max, rel=0.01)
+
+
+def test_two_methods_without_common_code_agree_on_bertocchis_narrow_pad_and_not_with_the_curve():
+    ours = bertocchi.peak(bertocchi.NARROW, (128, 64))
+    peaks = [centre_line(PAD, (cells, 20))[1].max() / 1e6 for cells in (50, 100, 200)]
+    assert np.all(np.diff(peaks) < 0)
+    assert 2 * peaks[-1] - peaks[-2] == pytest.approx(ours, rel=0.01)
+    assert ours > 1.04 * 8.5038
+
+
+def test_bertocchis_wide_pad_is_met():
+    assert bertocchi.peak(bertocchi.WIDE, (128, 64)) == pytest.approx(41.81, abs=0.2)
+
+
+def test_flow_factors_of_wide_gaps_are_those_of_patir_and_cheng(monkeypatch):
+    monkeypatch.setattr(patir_cheng, "SEEDS", 2)
+    monkeypatch.setattr(patir_cheng, "POINTS", 192)
+    rows = [row for row in answer("patir_cheng").rows if row.at >= 3 and "pressure" in row.quantity]
+    assert verdicts(rows) == {Verdict.WITHIN}
+
+
+def test_the_resistance_of_a_closing_saddle_has_dapp_and_muesers_exponent():
+    one = dapp_mueser.closing(128, silent)
+    assert one.exponent(0.06) == pytest.approx(3.45, abs=0.1)
+    assert np.all(np.diff(one.local[:12]) < 0)
+
+
+def test_random_roughness_seals_near_wang_and_muesers_area(monkeypatch):
+    monkeypatch.setattr(wang_mueser, "USUAL", (128, 6, 6))
+    (row,) = answer("wang_mueser").rows
+    assert row.ours == pytest.approx(0.415, abs=0.04)
