@@ -32,7 +32,8 @@ def value_of(result: Result, quantity: str) -> str:
     if quantity not in result.quantities:
         return f"no {kind.titles[quantity]}"
     name = whole(quantity, result)
-    title, shown = kind.reported.get(name, kind.titles[quantity]), result.quantities[name]
+    of_all = " of the whole bearing" if name.startswith("bearing_") else ""
+    title, shown = f"{kind.titles[quantity]}{of_all}", result.quantities[name]
     size, unit = scale_of(shown.unit, abs(shown.value))
     own = result[quantity]
     bar = "" if own.uncertainty is None or own.value == 0 else f" ± {percent(own.uncertainty / abs(own.value))}"
