@@ -29,7 +29,7 @@ extensions = [
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 4
 myst_dmath_double_inline = True
-exclude_patterns = ["**/README.rst", "kept_examples", "sg_execution_times.rst", "gallery/**/*.ipynb"]
+exclude_patterns = ["**/README.rst", "kept_examples", "**/sg_execution_times.rst"]
 html_theme = "pydata_sphinx_theme"
 html_title = f"roughfilm {release}"
 html_static_path = ["_static"]
@@ -38,6 +38,7 @@ html_math_renderer = "mathml"
 html_copy_source = html_show_sourcelink = False
 html_theme_options: dict[str, Any] = {
     "navigation_with_keys": False,
+    "header_links_before_dropdown": 8,
     "secondary_sidebar_items": ["page-toc"],
     "show_prev_next": True,
     "show_toc_level": 2,
