@@ -114,9 +114,10 @@ def left_out(scene: Scene, model: Model, models: Sequence[Model]) -> str:
     parts = [
         listed(missing) if missing else "",
         "" if model.complete else "the higher orders of its effects in a small parameter",
+        f"{kind.excluded}, which no model of this kind includes",
         omission.reason if omission else "",
     ]
-    return "; ".join(filter(None, parts)) or "no effect that another model for this scene includes"
+    return "; ".join(filter(None, parts))
 
 
 def _missing(scene: Scene, model: Model, models: Sequence[Model]) -> list[str]:

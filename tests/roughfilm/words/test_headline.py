@@ -35,7 +35,7 @@ def test_the_line_names_the_model_its_uncertainty_and_what_it_leaves_out(journal
     assert "±" in found.value
     assert found.model.startswith("reynolds, ")
     assert found.sure.startswith("± is the numerical uncertainty, ")
-    assert found.left_out.startswith("cavitation and pressure dependence")
+    assert found.left_out.startswith("cavitation and pressure dependence; inertia, heat and deformation")
 
 
 def test_an_unknown_uncertainty_is_said_to_be_unknown(journal):
