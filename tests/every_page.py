@@ -110,6 +110,12 @@ def charts(folder: Path) -> Path:
     return folder / "charts" / "charts.html"
 
 
+def validation(folder: Path) -> Path:
+    """The page of the two sources that are solved fastest."""
+    run("validate", "--source", "fowell", "--source", "hertz", "--out", folder / "validation")
+    return folder / "validation" / "report.html"
+
+
 def reported(command: str, *options: object) -> Callable[[Path], Path]:
     """The page of a command on the small surface."""
 
@@ -147,6 +153,7 @@ KINDS: dict[str, Callable[[Path], Path]] = {
     "sweep": sweep,
     "stability": stability_map,
     "charts": charts,
+    "validation": validation,
 }
 """How the page of each kind is made in a folder that holds the small scenes."""
 

@@ -215,6 +215,7 @@ KIND = Kind(
     columns=columns,
     numbers=bearing_numbers,
     symbols=NUMBERS,
+    excluded="inertia, heat and deformation of the bodies as a whole",
     composed=composed,
     omitted=omitted,
     files=frozenset({"table", "surface", "thickness"}),

@@ -112,6 +112,7 @@ KIND = Kind(
     columns=columns,
     numbers=numbers,
     symbols=NUMBERS,
+    excluded="friction, adhesion and hardening",
     files=frozenset({"surface"}),
     replaces={"geometry.surface": ("digest", "spacing")},
     lists=frozenset({("geometry", "spacing"), ("geometry", "surface", "size"), ("geometry", "surface", "points")}),

@@ -112,7 +112,8 @@ class Kind:
     numbers : numbers(scene), the dimensionless numbers of the error laws, without those that have no meaning.
     symbols : the symbols of these numbers.
     composed : composed(scene), a line on the model of each effect of a scene, with its reason.
-    omitted : omitted(scene, quantity), the effect that all models leave out; None if it is zero or unknown.
+    excluded : the effects that no model of the kind includes, in words.
+    omitted : omitted(scene, quantity), the size of such an effect; None if it is zero or unknown.
     outside_laws : outside_laws(scene, result, quantity), the reason for which a result shows that the error laws of a
         quantity do not hold; empty if it does not.
     faults : faults(error, entries), the faults of a scene, from pydantic's error; None for ``plain_faults``.
@@ -127,6 +128,7 @@ class Kind:
     columns: Callable[[Any], Mapping[str, Quantity | str]]
     numbers: Callable[[Any], Mapping[str, float]]
     symbols: Mapping[str, str]
+    excluded: str
     others: Mapping[str, str] = field(default_factory=dict)
     reported: Mapping[str, str] = field(default_factory=dict)
     remarks: Callable[[Mapping[str, Any], Mapping[str, Quantity]], Sequence[str]] = nothing_remarked

@@ -171,6 +171,7 @@ KIND = Kind(
     columns=columns,
     numbers=numbers,
     symbols=SYMBOLS,
+    excluded="cavitation, heat and deformation",
     omitted=omitted,
     outside_laws=outside_laws,
     files=frozenset({"points"}),

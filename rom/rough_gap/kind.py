@@ -131,6 +131,7 @@ KIND = Kind(
     columns=columns,
     numbers=numbers,
     symbols=NUMBERS,
+    excluded="cavitation, heat and deformation by the pressure of the liquid",
     omitted=omitted,
     files=frozenset({"surface"}),
     no_files=frozenset({SINUSOID}),

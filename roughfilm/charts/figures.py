@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from roughfilm.charts.judgement import Chart
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.writing.kinds import PICTURE
-from roughfilm.figures.base import svg
+from roughfilm.figures.base import FRONT, svg
 from roughfilm.figures.view import Style
 from roughfilm.rom.studies.comparison import Point
 
@@ -97,7 +97,7 @@ def _draw(axes: Axes, chart: Chart, *, size: float, numbers: bool) -> None:
         [_drawn(chart, drawn[point.model, point.resolution]) for point in chart.front],
         color="black",
         linewidth=1.2,
-        label="Pareto front",
+        label=FRONT,
         zorder=0,
     )
     axes.set_xscale("log")

@@ -110,7 +110,7 @@ def _study_entries(study: EffectStudy) -> dict[str, Any]:
         "plain": {name: asdict(amount) for name, amount in study.plain.items()},
         "contributions": [asdict(contribution) for contribution in study.contributions],
         "full": {name: asdict(amount) for name, amount in study.full.items()},
-        "untold": dict(study.unsolved),
+        "unsolved": dict(study.unsolved),
     }
 
 

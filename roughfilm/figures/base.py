@@ -12,14 +12,13 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.layout_engine import ConstrainedLayoutEngine
-from matplotlib.ticker import NullFormatter
 
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.figures.readings import readings
+from roughfilm.figures.ticks import whole_decades
 from roughfilm.figures.view import View
 from roughfilm.rom.studies.comparison import Point, pareto_front
 from roughfilm.rom.studies.convergence import Convergence, ConvergenceKind
@@ -46,6 +45,7 @@ LEAST = 0.03
 """Smallest relative error that is drawn over the uncertainty of the reference."""
 
 FRONT = "Pareto front"
+"""Label of the front in a legend."""
 
 MAX_PIXELS = 512
 """Largest number of points of a map along a side."""
@@ -95,18 +95,9 @@ def speed_against_accuracy(
         lowest = min((drawn(p.error[quantity]) for p in known), default=None)
         if lowest is not None:
             axes.set_ylim(bottom=lowest / 2)
-            for axis in (axes.xaxis, axes.yaxis):
-                _whole_decades(axis)
+            whole_decades(axes.xaxis, axes.yaxis)
     _legend_above(figure)
     return figure
-
-
-def _whole_decades(axis: Axis) -> None:
-    """Label the powers of ten of a logarithmic axis, of which it shows two at least."""
-    low, high = np.log10(axis.get_view_interval())
-    if np.floor(high) - np.ceil(low) < 1:
-        axis.set_view_interval(10 ** np.floor(low), 10 ** max(np.ceil(high), np.floor(low) + 1), ignore=True)
-    axis.set_minor_formatter(NullFormatter())
 
 
 def _drawn(error: float, least: float) -> float:

@@ -1,9 +1,10 @@
-"""Numbers at logarithmic axes, without powers of ten."""
+"""Numbers at logarithmic axes: plain ones, and powers of ten alone where an axis has many decades."""
 
 import math
 
+import numpy as np
 from matplotlib.axis import Axis
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, NullFormatter
 
 MINOR = (2, 5)
 """Multiples of a power of ten that have a number where an axis is shorter than a decade."""
@@ -20,3 +21,12 @@ def plain_logarithmic(*axes: Axis) -> None:
 
         axis.set_major_formatter("{x:g}")
         axis.set_minor_formatter(FuncFormatter(between))
+
+
+def whole_decades(*axes: Axis) -> None:
+    """Write the powers of ten alone at logarithmic axes, each of which shows two of them at least."""
+    for axis in axes:
+        low, high = np.log10(axis.get_view_interval())
+        if np.floor(high) - np.ceil(low) < 1:
+            axis.set_view_interval(10 ** np.floor(low), 10 ** max(np.ceil(high), np.floor(low) + 1), ignore=True)
+        axis.set_minor_formatter(NullFormatter())

@@ -151,5 +151,5 @@ def _view(
         "tables": {"Switched on one after the other": on, "Each added to all the others": alone},
         "file": file,
         "figure": effects_figures.waterfall(panels) if panels else "",
-        "untold": study.unsolved,
+        "unsolved": study.unsolved,
     }

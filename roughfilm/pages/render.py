@@ -1,6 +1,7 @@
 """Self-contained HTML pages from templates."""
 
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from roughfilm.figures.rendering import viewer
 from roughfilm.terminal.layout import VISIBLE
 from roughfilm.words.cost import seconds
 from roughfilm.words.numbers import share, span
+from roughfilm.words.scales import scale_for
 
 TEMPLATES = Path(__file__).parent / "templates"
 
@@ -37,8 +39,8 @@ def render(template: str | Path, path: Path, *, overwrite: bool = False, **entri
         share=share,
         seconds=seconds,
         number=_number,
-        si=_si,
-        micro=_micro,
+        si=partial(_in_unit, unit="Pa"),
+        micro=partial(_in_unit, unit="m"),
         span=lambda ends: "–" if ends is None else span(*ends),
     )
     held = iter(("viewer",))
@@ -64,12 +66,7 @@ def _number(value: float) -> str:
     return "0" if abs(value) < 5e-5 else f"{value:.4g}".replace("-", "−")
 
 
-def _micro(value: float) -> str:
-    return f"{value * 1e3:.4g} mm" if value >= 1e-3 else f"{value * 1e6:.4g} µm"
-
-
-def _si(value: float) -> str:
-    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
-        if abs(value) >= factor:
-            return f"{value / factor:.4g} {prefix}Pa".replace("-", "−")
-    return f"{value:.4g} Pa".replace("-", "−")
+def _in_unit(value: float, unit: str) -> str:
+    """A value in an SI unit in the unit that its size chooses."""
+    scale = scale_for(unit, abs(value))
+    return f"{value / scale.factor:.4g} {scale.unit}".replace("-", "−")

@@ -45,7 +45,7 @@ from roughfilm.rom.studies.sufficient import (
     suitability,
 )
 from roughfilm.rom.studies.sweep import Sweep, kind_of_sweep, read_sweep, restricted
-from roughfilm.words.headline import model_sentences
+from roughfilm.words.headline import included, left_out
 from roughfilm.words.numbers import finite, percent, share
 from roughfilm.words.scales import Scale, common_scale
 from roughfilm.words.sweep import (
@@ -58,7 +58,7 @@ from roughfilm.words.sweep import (
     optimum_sentence,
     place_of,
     title_of,
-    uncertainty_sentence,
+    uncertainty_words,
     unranked_sentence,
 )
 
@@ -114,7 +114,7 @@ class Study:
 
 @dataclass(frozen=True, kw_only=True)
 class Shown:
-    """An answer with its words: title, unit, optimum and sentences."""
+    """An answer with its words: title, unit, optimum, sentences, and how sure it is."""
 
     answer: Answer
     title: str
@@ -122,6 +122,7 @@ class Shown:
     optimum: Optimum | None
     optimum_along: Parameter | None
     sentences: tuple[str, ...]
+    sure: str
 
 
 def study_of(batch: Batch) -> Study:
@@ -229,7 +230,8 @@ def shown_answers(study: Study, want: str | None) -> list[Shown]:
                 scale=scale,
                 optimum=found[0][1] if found else None,
                 optimum_along=found[0][0] if found else None,
-                sentences=tuple(filter(None, [*sentences, uncertainty_sentence(answer)])),
+                sentences=tuple(filter(None, sentences)),
+                sure=uncertainty_words(answer),
             )
         )
     return shown
@@ -259,6 +261,7 @@ def write_sweep(study: Study, want: str | None, path: Path, *, overwrite: bool =
     unranked = unranked_sentence(shown[0].answer, _reason(study, shown[0].answer))
     judged, ordered = _judgement(study), _ordered(study)
     pictures = _chosen_cases(study, shown[0])
+    model, missing_effects = _model_in_words(study, shown[0].answer.best)
     render(
         "sweep.html.j2",
         path,
@@ -267,7 +270,8 @@ def write_sweep(study: Study, want: str | None, path: Path, *, overwrite: bool =
         study=study,
         sweep=study.sweep,
         headline=headline(study, shown[0]),
-        model=_model_sentences(study, shown[0].answer.best),
+        model=model,
+        left_out=missing_effects,
         others=[headline(study, one) for one in main[1:]],
         missing=[*missing, *filter(None, [unranked])],
         edited=edited,
@@ -313,18 +317,18 @@ def write_sweep(study: Study, want: str | None, path: Path, *, overwrite: bool =
     return entries, headline(study, shown[0])
 
 
-def _model_sentences(study: Study, best: int) -> tuple[str, ...]:
-    """The sentences on the best model and on what it leaves out in the best case; none without its result."""
+def _model_in_words(study: Study, best: int) -> tuple[str, str]:
+    """The best model with what it includes, and what it leaves out in the best case; empty without its result."""
     result = _result(study.batch.result_path(study.sweep.names[best], study.reference.setting))
     if result is None:
-        return ()
+        return "", ""
     ladder = models(study.kind.name)
     model = next(one for one in ladder if one.name == result.model)
     try:
         scene = read_scene(result.provenance["scene"])
-        return model_sentences(scene, model, ladder)
+        return included(scene, model, ladder), left_out(scene, model, ladder)
     except (InputError, ConvergenceError, KeyError):
-        return ()
+        return "", ""
 
 
 def _varies(one: Shown) -> bool:

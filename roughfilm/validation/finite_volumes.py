@@ -34,9 +34,20 @@ Ends = tuple[Cells, Array]
 
 @dataclass(frozen=True, kw_only=True)
 class FinitePad:
-    """A rigid pad with one rectangular pocket in the middle of its width; all lengths in m, pressures absolute, Pa.
+    """A rigid pad with one rectangular pocket in the middle of its width; pressures are absolute.
 
-    The density is (c1 + c2 p)/(c1 + p), the viscosity η exp(α p); the cavitation pressure is 0.
+    The density over that at the cavitation pressure 0 is (c1 + c2 p)/(c1 + p), the viscosity η exp(α p).
+
+    Attributes
+    ----------
+    length, width : of the pad, m.
+    inlet, outlet : film thickness at both ends, between which it changes linearly, m.
+    pocket : where the pocket begins and ends, m from the inlet.
+    pocket_width, depth : of the pocket, m.
+    speed : of the flat wall, m/s.
+    ambient : pressure on all sides, Pa.
+    viscosity, barus : η at the cavitation pressure, Pa s, and α, 1/Pa.
+    c1, c2 : Dowson and Higginson's constants, Pa and 1.
     """
 
     length: float
@@ -70,14 +81,19 @@ class FinitePad:
 def centre_line(pad: FinitePad, cells: tuple[int, int]) -> tuple[Array, Array]:
     """The pressure along the middle of the width, Pa, at the middles of the cells, m.
 
+    The equation is ∂(ρ (1 − c) h u/2)/∂x = ∇·(ρ h³/(12 η) ∇p) with p, c >= 0 and p c = 0 for the cavity fraction c.
     Half of the width has cells of equal size, so that a pocket that begins and ends at their edges is exact. Flow
     between cells has the harmonic mean of h³ and the mean mobility, the flow of sliding that of the upstream cell. The
-    balances and p + c − √(p² + c²) = 0 with the cavity fraction c are solved together by Newton's method with a
-    sparse factorisation. First-order accurate.
+    balances and p + c − √(p² + c²) = 0 are solved together by Newton's method with a sparse factorisation.
+    First-order accurate.
 
     Parameters
     ----------
-    cells : number along the pad and across half of its width.
+    cells : number along the pad and across half of its width, 2 or more across.
+
+    Returns
+    -------
+    The positions, m, and the pressures, Pa, both of shape (cells along,).
 
     Raises
     ------

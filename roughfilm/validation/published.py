@@ -1,7 +1,7 @@
 """A published number beside ours, and the source that it comes from."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -67,6 +67,33 @@ class Row:
         if abs(self.difference) <= self.allowed:
             return Verdict.WITHIN
         return Verdict.SUSPECT if self.evidence else Verdict.OUTSIDE
+
+
+def against_closed_form(
+    case: str, at: float, compared: Sequence[tuple[str, str, float, float, float]], bar: float
+) -> list[Row]:
+    """The rows of a case whose values a closed form gives.
+
+    Parameters
+    ----------
+    case, at : name of the case, and its abscissa.
+    compared : for each quantity its name, its unit, and in that unit the closed form, our value and its uncertainty.
+    bar : relative accuracy that is asked of our values.
+    """
+    return [
+        Row(
+            case=case,
+            series="closed form",
+            at=at,
+            quantity=quantity,
+            unit=unit,
+            published=exact,
+            ours=ours,
+            uncertainty=uncertainty,
+            bar=bar * abs(exact),
+        )
+        for quantity, unit, exact, ours, uncertainty in compared
+    ]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 from statistics import median
 from typing import Any
 
-from roughfilm.contact.foundation.rounding import with_error
+from roughfilm.contact.foundation.rounding import share, with_error
 from roughfilm.validation.published import Answer, Row, Source, Verdict
 
 COLUMNS = ("source", "numbers", "within", "outside", "suspect", "median", "largest")
@@ -69,7 +69,7 @@ def in_percent(relative: float) -> str:
     >>> in_percent(0.0123), in_percent(1.2e-9)
     ('1.2 %', '< 0.001 %')
     """
-    return "< 0.001 %" if relative < 1e-5 else f"{100 * relative:.2g} %"
+    return "< 0.001 %" if relative < 1e-5 else share(relative)
 
 
 def ours_in_words(row: Row) -> str:

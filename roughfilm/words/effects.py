@@ -32,7 +32,7 @@ SHOWN: Mapping[str, Shown] = {
     "friction_per_width": Shown(title="friction", unit="N/m"),
     "friction_coefficient": Shown(title="friction coefficient", unit="10⁻³", factor=1e3),
     "inlet_flow_per_width": Shown(title="inlet flow", unit="mm²/s", factor=1e6),
-    "side_leakage": Shown(title="side leakage", unit="mm³/s", factor=1e9),
+    "side_leakage": Shown(title="side leakage", unit="ml/min", factor=60e6),
     "contact_share": Shown(title="carried by contact", unit="%", factor=100),
 }
 FORCES = ("load", "load_per_width", "friction", "friction_per_width")

@@ -1,4 +1,4 @@
-"""The headline of a page: what the scene asks for, and in sentences which model, how sure, and what it left out."""
+"""The headline of a page: what the scene asks for, which model, how sure, and what it leaves out, in words."""
 
 import math
 from collections.abc import Sequence
@@ -19,20 +19,22 @@ NEGLIGIBLE = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class Headline:
-    """The answer of a result.
+    """The answer of a result, and the line that every answer has.
 
     Attributes
     ----------
     quantity : name of the quantity in the result.
     title : name of the quantity in a sentence.
     value : its value ± uncertainty with the unit.
-    sentences : which model, how sure, and what it leaves out.
+    model, sure, left_out : which model and what it includes, how sure, and what is left out.
     """
 
     quantity: str
     title: str
     value: str
-    sentences: tuple[str, ...]
+    model: str
+    sure: str
+    left_out: str
 
 
 def headline(scene: Scene, result: Result, models: Sequence[Model], scales: Scales, origin: str = STATED) -> Headline:
@@ -49,12 +51,13 @@ def headline(scene: Scene, result: Result, models: Sequence[Model], scales: Scal
     name = asked(result)
     model = next(one for one in models if one.name == result.model)
     sealed = result.quantities.get("sealed")
-    included, *rest = model_sentences(scene, model, models)
     return Headline(
         quantity=name,
         title=kind_of(result).reported[name],
         value="none: no open path" if sealed and sealed.value else scales.text(name, result.quantities[name]),
-        sentences=(included, sureness(result, origin), *rest),
+        model=included(scene, model, models),
+        sure=sureness(result, origin),
+        left_out=left_out(scene, model, models),
     )
 
 
@@ -77,50 +80,44 @@ def whole(name: str, result: Result) -> str:
     return next(one for one in (f"bearing_{base}", base, f"{base}_per_area", name) if one in result.quantities)
 
 
-def model_sentences(scene: Scene, model: Model, models: Sequence[Model]) -> tuple[str, ...]:
-    """The sentences on a model, on the effects that it keeps, and on those that it leaves out, if there are any."""
-    return tuple(filter(None, (_included(scene, model, models), left_out(scene, model, models))))
-
-
-def _included(scene: Scene, model: Model, models: Sequence[Model]) -> str:
-    """The sentence on the model and the effects that it keeps."""
+def included(scene: Scene, model: Model, models: Sequence[Model]) -> str:
+    """The model in words, with the effects that it includes."""
     rank = ", the most complete model for this scene" if not _missing(scene, model, models) else ""
     kept = f", which includes {listed(sorted(model.keeps))}" if model.keeps else f", {model.summary}"
-    return f"By {model.name}{rank}{kept}."
+    return f"{model.name}{rank}{kept}"
 
 
 def sureness(result: Result, origin: str = STATED) -> str:
-    """The sentence on the numerical uncertainty of the answer and on the error of the model, each with its origin."""
+    """The numerical uncertainty of the answer and the error of the model in words, each with its origin."""
     kind = kind_of(result)
     name = next(iter(kind.compared))
     one, size = result.quantities[name], kind.scale_of(result, name)
     if one.uncertainty is None or not math.isfinite(one.uncertainty):
-        numerical = "Its numerical uncertainty is unknown"
+        numerical = "the numerical uncertainty is unknown"
     elif one.uncertainty <= NEGLIGIBLE * size:
-        numerical = "Its numerical uncertainty is negligible"
+        numerical = "the numerical uncertainty is negligible"
     else:
-        numerical = f"± is its numerical uncertainty, {percent(one.uncertainty / size)} ({origin})"
+        numerical = f"± is the numerical uncertainty, {percent(one.uncertainty / size)} ({origin})"
     error = stated_errors(result).get(name)
     if error is None or not math.isfinite(error.error) or error.source == BY_ITS_RUN:
-        return f"{numerical}; effects that the model leaves out are not in it."
+        return f"{numerical}; effects that the model leaves out are not in it"
     if error.source == BY_LAWS:
-        return f"{numerical}; the error of the model is expected to be at most {error.amount} by the fitted laws."
-    return f"{numerical}; the error of the model is {error.words}."
+        return f"{numerical}; the error of the model is expected to be at most {error.amount} by the fitted laws"
+    return f"{numerical}; the error of the model is {error.words}"
 
 
 def left_out(scene: Scene, model: Model, models: Sequence[Model]) -> str:
-    """The sentence on the effects that a model leaves out: those of other models, and those that no model keeps."""
+    """The effects that a model leaves out in words: those of other models, and those that no model keeps."""
     missing = _missing(scene, model, models)
-    partly = [] if model.complete else ["It keeps its effects to some order in a small parameter only."]
     kind = kind_of_scene(scene)
     omission = kind.omitted(scene, next(iter(kind.compared)))
-    return " ".join(
-        [
-            *([f"It leaves out {listed(missing)}."] if missing else []),
-            *partly,
-            *([f"{omission.reason[:1].upper()}{omission.reason[1:]}."] if omission and omission.reason else []),
-        ]
-    )
+    parts = [
+        listed(missing) if missing else "",
+        "" if model.complete else "the higher orders of its effects in a small parameter",
+        f"{kind.excluded}, which no model of this kind includes",
+        omission.reason if omission else "",
+    ]
+    return "; ".join(filter(None, parts))
 
 
 def _missing(scene: Scene, model: Model, models: Sequence[Model]) -> list[str]:

@@ -108,8 +108,8 @@ def edited_sentences(edited: Mapping[str, Mapping[int, str]]) -> list[str]:
     ]
 
 
-def uncertainty_sentence(answer: Answer) -> str:
-    """The sentence on the meaning of ± in an answer."""
+def uncertainty_words(answer: Answer) -> str:
+    """The meaning of ± in an answer."""
     known = np.isfinite(answer.values)
     laws, unknown = int((answer.by_laws & known).sum()), int((np.isnan(answer.uncertainty) & known).sum())
     numerical = int(known.sum()) - laws - unknown
@@ -123,7 +123,7 @@ def uncertainty_sentence(answer: Answer) -> str:
         parts.append(f"the expected error of {model} by the fitted laws{where}")
     if unknown:
         parts.append(f"unknown in {'all' if unknown == known.sum() else ''} {_cases(unknown)}".replace("  ", " "))
-    return f"± is {', and '.join(parts)}." if parts else ""
+    return f"± is {', and '.join(parts)}"
 
 
 def missing_sentences(solved: Mapping[str, Array], failures: Sequence[tuple[str, str, str]], to_come: int) -> list[str]:

@@ -79,12 +79,10 @@ def _rows(
 
 
 def _evidence(table: Entries, eccentricity: float, width: float, name: str) -> str:
-    """What the rest of the table says of an entry."""
+    """What the rest of the table says of an entry; "" at its corners, where it says nothing."""
     column = f"{name} [{QUANTITIES[name][1]}]"
     likely = interpolated(table, eccentricity, width, column)
-    if likely is None:
-        return "a corner of the table, which the other entries cannot be interpolated to"
-    return f"the other entries of the table, interpolated, give {likely:.4g}"
+    return "" if likely is None else f"the other entries of the table, interpolated, give {likely:.4g}"
 
 
 def interpolated(table: Entries, eccentricity: float, width: float, column: str) -> float | None:
@@ -126,11 +124,11 @@ def _remarks(rows: list[Row]) -> tuple[str, ...]:
 
 def _misprints(table: Entries, rows: list[Row]) -> Study:
     """The entries that are marked as misprints or lie outside of the bar."""
-    columns = {words: f"{name} [{unit}]" for name, (words, unit) in QUANTITIES.items()}
+    entries = [(key, name) for key in table for name in QUANTITIES]
     chosen = [
-        (row, interpolated(table, *key, columns[row.quantity]))
-        for key, row in zip((key for key in table for _ in QUANTITIES), rows, strict=True)
-        if row.evidence or row.verdict is not Verdict.WITHIN
+        (row, interpolated(table, *key, f"{name} [{row.unit}]"))
+        for (key, name), row in zip(entries, rows, strict=True)
+        if name in table[key]["suspect"].split() or row.verdict is not Verdict.WITHIN
     ]
     return Study(
         title="Entries that are suspected as misprints, and entries outside of the bar",

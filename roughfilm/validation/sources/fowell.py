@@ -9,7 +9,7 @@ from roughfilm.rom.bearing.quantities import boundary_flows
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.validation.pads import film_of, pocketed_pad
-from roughfilm.validation.published import Answer, Row, Source
+from roughfilm.validation.published import Answer, Row, Source, against_closed_form
 from roughfilm.validation.reading import published
 
 BAR = 1e-4
@@ -36,21 +36,17 @@ def answer(thorough: bool, progress: Progress) -> Answer:
     for number, printed in enumerate(table):
         progress(number / len(table), f"pad with a pocket, case {printed['case']}")
         ours, coarser = (_numbers(printed, cells) for cells in (FINER if thorough else CELLS, 1000))
-        for column, (words, size, unit) in COLUMNS.items():
-            value = float(printed[column]) / size
-            rows.append(
-                Row(
-                    case=f"case {printed['case']}",
-                    series="closed form",
-                    at=float(printed["case"]),
-                    quantity=words,
-                    unit=unit,
-                    published=value,
-                    ours=ours[column] / size,
-                    uncertainty=abs(ours[column] - coarser[column]) / size,
-                    bar=BAR * abs(value),
-                )
+        compared = [
+            (
+                words,
+                unit,
+                float(printed[column]) / size,
+                ours[column] / size,
+                abs(ours[column] - coarser[column]) / size,
             )
+            for column, (words, size, unit) in COLUMNS.items()
+        ]
+        rows += against_closed_form(f"case {printed['case']}", float(printed["case"]), compared, BAR)
     return Answer(rows=tuple(rows))
 
 

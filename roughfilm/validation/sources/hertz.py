@@ -8,7 +8,7 @@ from roughfilm.contact.mechanics.discretisation import uncertainties
 from roughfilm.contact.mechanics.exact.hertz import HertzSphere
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.rom.ladder.model import Progress
-from roughfilm.validation.published import Answer, Row, Source
+from roughfilm.validation.published import Answer, Row, Source, against_closed_form
 
 BAR = 0.01
 """Relative accuracy that is asked of the solver."""
@@ -53,20 +53,7 @@ def answer(thorough: bool, progress: Progress) -> Answer:
             ),
             ("approach", "nm", exact.approach * 1e9, contact.approach * 1e9, bars["approach"] * 1e9),
         )
-        rows += [
-            Row(
-                case=f"{force:g} N",
-                series="closed form",
-                at=force,
-                quantity=words,
-                unit=unit,
-                published=value,
-                ours=ours,
-                uncertainty=bar,
-                bar=BAR * value,
-            )
-            for words, unit, value, ours, bar in compared
-        ]
+        rows += against_closed_form(f"{force:g} N", force, compared, BAR)
     return Answer(rows=tuple(rows))
 
 

@@ -1,12 +1,14 @@
 """Westergaard's sinusoidal ridges under load."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from roughfilm.contact.mechanics.discretisation import uncertainties
 from roughfilm.contact.mechanics.exact.westergaard import Westergaard
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.rom.ladder.model import Progress
-from roughfilm.validation.published import Answer, Row, Source
+from roughfilm.validation.published import Answer, Row, Source, against_closed_form
 
 BAR = 0.01
 """Relative accuracy that is asked of the solver."""
@@ -26,16 +28,11 @@ def answer(thorough: bool, progress: Progress) -> Answer:
     x = (np.arange(points) + 0.5) * WAVELENGTH / points - WAVELENGTH / 2
     heights = AMPLITUDE * np.cos(2 * np.pi * x / WAVELENGTH)
     press = Press(np.repeat(heights[:, None], 2, axis=1), (WAVELENGTH / points, WAVELENGTH / points), MODULUS)
+    unloaded = Westergaard(amplitude=AMPLITUDE, wavelength=WAVELENGTH, composite_modulus=MODULUS, load=0.0)
     rows: list[Row] = []
     for number, share in enumerate(LOADS):
         progress(number / len(LOADS), f"sinusoidal ridges, {share:g} of the load of full contact")
-        full = Westergaard(amplitude=AMPLITUDE, wavelength=WAVELENGTH, composite_modulus=MODULUS, load=0.0)
-        exact = Westergaard(
-            amplitude=AMPLITUDE,
-            wavelength=WAVELENGTH,
-            composite_modulus=MODULUS,
-            load=share * full.full_contact_load,
-        )
+        exact = replace(unloaded, load=share * unloaded.full_contact_load)
         contact = press.at(exact.load)
         bars = uncertainties(contact)
         compared = (
@@ -49,20 +46,7 @@ def answer(thorough: bool, progress: Progress) -> Answer:
             ),
             ("mean gap", "nm", exact.mean_gap * 1e9, contact.mean_gap * 1e9, bars["mean_gap"] * 1e9),
         )
-        rows += [
-            Row(
-                case=f"P/p* = {share:g}",
-                series="closed form",
-                at=share,
-                quantity=words,
-                unit=unit,
-                published=value,
-                ours=ours,
-                uncertainty=bar,
-                bar=BAR * value,
-            )
-            for words, unit, value, ours, bar in compared
-        ]
+        rows += against_closed_form(f"P/p* = {share:g}", share, compared, BAR)
     return Answer(rows=tuple(rows))
 
 

@@ -56,7 +56,7 @@ def test_under_the_load_everything_carries_it(pad: tuple[Path, dict[str, Any]]) 
     assert pad[1]["numerics"]["balance"] < 1e-6
 
 
-def test_inertia_is_told_beside_and_not_within(pad: tuple[Path, dict[str, Any]]) -> None:
+def test_inertia_stands_beside_the_effects_and_not_within(pad: tuple[Path, dict[str, Any]]) -> None:
     entries = pad[1]
     added = entries["inertia"]["amounts"]["load"]
     assert 0 < abs(added["value"]) + added["uncertainty"] < 0.01 * entries["quantities"]["load"]["value"]
@@ -124,7 +124,7 @@ def test_a_load_of_the_command_takes_the_place_of_the_scenes(tmp_path: Path) -> 
     assert done.exit_code == 0, done.stderr
     entries = json.loads(done.stdout)
     assert entries["provenance"]["scene"]["load"]["pressure"].split()[0] == "200000.0"
-    assert set(entries["under_load"]["untold"]) == {"the plain film", "with side flow", "without cavitation"}
+    assert set(entries["under_load"]["unsolved"]) == {"the plain film", "with side flow", "without cavitation"}
     (roughness,) = [one for one in entries["under_load"]["contributions"] if one["name"] == "roughness"]
     assert roughness["on"]["film"]["value"] > 0
     page = (tmp_path / "report.html").read_text(encoding="utf-8")

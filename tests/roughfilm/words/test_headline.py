@@ -1,4 +1,4 @@
-"""The answer of a page in sentences."""
+"""The answer of a page in words."""
 
 from dataclasses import replace
 
@@ -27,16 +27,15 @@ def test_a_film_under_a_load_is_the_answer_where_the_load_is_given():
     assert asked(find("bearing", "reynolds").solve(scene, Request(resolution=32))) == "film_min"
 
 
-def test_the_sentences_name_the_model_its_uncertainty_and_what_it_leaves_out(journal):
+def test_the_line_names_the_model_its_uncertainty_and_what_it_leaves_out(journal):
     scene, result = journal
     found = of(scene, result)
     assert found.quantity == asked(result) == "load"
     assert found.value.endswith(" kN")
     assert "±" in found.value
-    model, sure, out = found.sentences
-    assert model.startswith("By reynolds, ")
-    assert "its numerical uncertainty" in sure
-    assert "leaves out cavitation and pressure dependence" in out
+    assert found.model.startswith("reynolds, ")
+    assert found.sure.startswith("± is the numerical uncertainty, ")
+    assert found.left_out.startswith("cavitation and pressure dependence; inertia, heat and deformation")
 
 
 def test_an_unknown_uncertainty_is_said_to_be_unknown(journal):
@@ -44,4 +43,4 @@ def test_an_unknown_uncertainty_is_said_to_be_unknown(journal):
     quantities = {name: replace(one, uncertainty=None) for name, one in result.quantities.items()}
     found = of(scene, replace(result, quantities=quantities))
     assert found.value.rsplit(" ", 1)[0].endswith("± ?")
-    assert "uncertainty is unknown" in found.sentences[1]
+    assert "uncertainty is unknown" in found.sure
