@@ -30,6 +30,7 @@ myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 4
 myst_dmath_double_inline = True
 exclude_patterns = ["**/README.rst", "kept_examples", "**/sg_execution_times.rst", "gallery/**/*.ipynb"]
+smartquotes = False  # options such as --within and the quotes of scene files stay as they are typed
 html_theme = "pydata_sphinx_theme"
 html_title = f"roughfilm {release}"
 html_static_path = ["_static"]

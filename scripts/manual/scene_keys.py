@@ -79,7 +79,8 @@ def _tables(path: str, node: Mapping[str, Any], definitions: Mapping[str, Any]) 
     for name, given in node["properties"].items():
         forms = [*forms_of(given, definitions)]
         inner += [(name, given, form) for form in forms if "properties" in form]
-        keys.append(_key(name, given, forms, required=name in node.get("required", ())))
+        place = f"{path}.{name}" if path else name
+        keys.append(_key(name, given, forms, place=place, required=name in node.get("required", ())))
     yield path and f"[{path}]", node.get("description", ""), keys
     for name, _, form in inner:
         chosen = [f'{key} = "{one["const"]}"' for key, one in form["properties"].items() if "const" in one]
@@ -89,10 +90,12 @@ def _tables(path: str, node: Mapping[str, Any], definitions: Mapping[str, Any]) 
             yield place + (f" with {', '.join(chosen)}" if own and chosen else ""), meaning, entries
 
 
-def _key(name: str, given: Mapping[str, Any], forms: list[Mapping[str, Any]], *, required: bool) -> Key:
+def _key(name: str, given: Mapping[str, Any], forms: list[Mapping[str, Any]], *, place: str, required: bool) -> Key:
     plain = [form for form in forms if "properties" not in form]
     one = {**(plain[0] if plain else {}), **given}
     whole = len(plain) < len(forms)
+    several = len(forms) - len(plain) > 1
+    meaning = f"one of the {len(forms) - len(plain)} forms below" if several else forms[0].get("description", "")
     default = "required" if required else f"`{toml_value(one['default'])}`" if "default" in one else "none"
     number = one.get("type") in ("number", "integer")
     return Key(
@@ -100,8 +103,8 @@ def _key(name: str, given: Mapping[str, Any], forms: list[Mapping[str, Any]], *,
         unit=one.get(UNIT, "1" if number else ""),
         default=default,
         range="a table" if whole and not plain else _range(one) + (", or a table" if whole else ""),
-        meaning=_sentence(one.get("description", forms[0].get("description", ""))),
-        example=f"[{name}]" if whole and not plain else toml_value(sample_of(name, one)),
+        meaning=_sentence(one.get("description", meaning)),
+        example=f"[{place}]" if whole and not plain else toml_value(sample_of(name, one)),
     )
 
 
@@ -114,7 +117,9 @@ def _range(one: Mapping[str, Any]) -> str:
     if UNIT in one:
         limits = RANGES.get(one[UNIT])
         positive = one["pattern"].startswith(r"^\s*\+?")
-        return ("above 0" if positive else "any sign") + (f", {limits} in size" if limits else "")
+        if not limits:
+            return "above 0" if positive else "any sign"
+        return f"above 0, from {limits}" if positive else f"any sign; 0, or a magnitude from {limits}"
     words = [f"{word} {one[key]:g}" for key, word in COMPARED if key in one]
     names = {"integer": "whole number", "number": "number", "boolean": "`true` or `false`", "array": "list"}
     return " ".join([names.get(one.get("type", ""), "text"), ", ".join(words)]).strip()
