@@ -29,13 +29,21 @@ extensions = [
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 4
 myst_dmath_double_inline = True
-exclude_patterns = ["**/README.rst", "kept_examples", "**/sg_execution_times.rst", "gallery/**/*.ipynb"]
+exclude_patterns = [
+    "**/README.rst",
+    "kept_examples",
+    "sg_execution_times.rst",
+    "**/sg_execution_times.rst",
+    "gallery/**/*.ipynb",
+]
 smartquotes = False  # options such as --within and the quotes of scene files stay as they are typed
 html_theme = "pydata_sphinx_theme"
 html_title = f"roughfilm {release}"
 html_static_path = ["_static"]
 html_css_files = ["manual.css"]
+html_show_search_summary = False  # excerpts are fetched, which a browser forbids for pages on a disk
 html_math_renderer = "mathml"
+html_context = {"default_mode": "auto"}
 html_copy_source = html_show_sourcelink = False
 html_theme_options: dict[str, Any] = {
     "navigation_with_keys": False,
