@@ -29,13 +29,7 @@ extensions = [
 myst_enable_extensions = ["dollarmath", "colon_fence"]
 myst_heading_anchors = 4
 myst_dmath_double_inline = True
-exclude_patterns = [
-    "**/README.rst",
-    "kept_examples",
-    "sg_execution_times.rst",
-    "**/sg_execution_times.rst",
-    "gallery/**/*.ipynb",
-]
+exclude_patterns = ["**/README.rst", "kept_examples", "sg_execution_times.rst", "**/sg_execution_times.rst"]
 smartquotes = False  # options such as --within and the quotes of scene files stay as they are typed
 html_theme = "pydata_sphinx_theme"
 html_title = f"roughfilm {release}"
