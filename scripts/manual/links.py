@@ -32,10 +32,10 @@ def broken(directory: Path) -> Iterator[str]:
     """The links of the pages below a directory that lead nowhere, as "page: link".
 
     Links to other sites are not followed; a page, script, style or picture that is loaded from another site is named,
-    because pages work without a network. The theme's template webpack-macros.html is not a page.
+    because pages work without a network. Templates of the theme in ``_static`` are no pages.
     """
-    files = (path for path in sorted(directory.rglob("*.html")) if path.name != "webpack-macros.html")
-    pages = {path.resolve(): _Page(path.read_text(encoding="utf-8")) for path in files}
+    paths = (path for path in sorted(directory.rglob("*.html")) if "_static" not in path.parts)
+    pages = {path.resolve(): _Page(path.read_text(encoding="utf-8")) for path in paths}
     for path, page in pages.items():
         for link in sorted(page.links):
             parts = urlsplit(link)
