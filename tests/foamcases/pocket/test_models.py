@@ -11,7 +11,7 @@ from roughfilm.ladder import find
 from roughfilm.rom.ladder.model import ladder, of_kind
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
-from roughfilm.rom.studies.convergence import convergence
+from roughfilm.rom.studies.convergence import ConvergenceKind, convergence
 
 pytestmark = pytest.mark.openfoam
 
@@ -93,7 +93,7 @@ def test_stokes_becomes_reynolds_as_the_slope_vanishes(make_scene):
     gaps = []
     for width, depth in ((0.15, 0.5), (0.6, 0.5)):
         scene = make_scene(width, depth, 1)
-        thin, thick = plus(reynolds.solve(scene)), plus(STOKES.solve(scene))
+        thin, thick = plus(reynolds.solve(scene)), plus(STOKES.solve(scene, Request(resolution=120)))
         gaps.append(abs(thick[2] / thin[2] - 1))
     assert gaps[1] < gaps[0] / 3
     assert gaps[1] < 0.01
@@ -172,6 +172,22 @@ def test_the_extrapolated_load_over_steep_grooves_is_that_of_finite_elements(
     assert study.value == pytest.approx(load, rel=3e-3)
     assert abs(study.value - load) < study.uncertainty
     assert abs(study.values[-1] - load) < study.uncertainty < 0.05 * load
+
+
+@pytest.mark.parametrize(
+    ("width", "depth", "load", "least", "most"), [(0.30, 0.25, 3.303, 1.7, 2.5), (0.15, 0.50, 1.603, 1.0, 2.0)]
+)
+def test_load_of_navier_stokes_extrapolates_to_the_independent_value(
+    make_scene, solve, width, depth, load, least, most
+):
+    """Second order over a shallow groove; less over a short steep one, whose edges are sharper."""
+    scene = make_scene(width, depth, 160)
+    found = convergence(NAVIER_STOKES, [solve(NAVIER_STOKES, scene, n) for n in (240, 60, 120)])["load_plus"]
+    assert found.grids == (60, 120, 240)
+    assert found.kind is ConvergenceKind.MONOTONE
+    assert least < found.order < most
+    assert abs(found.value - load) < found.uncertainty < 0.01 * load
+    assert found.value == pytest.approx(load, rel=1e-3)
 
 
 @pytest.mark.parametrize(("ratio", "columns"), [(0.1, 120), (0.4, 60)])
