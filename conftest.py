@@ -1,4 +1,8 @@
-"""Tests and examples keep nothing in the cache of the user, and their messages do not depend on their duration."""
+"""Tests and examples keep nothing in the cache of the user, and their messages do not depend on their duration.
+
+Linear algebra runs in one thread here and in all children, since two processes of tests share the cores: threads that
+wait for each other in loops take several times as long as one.
+"""
 
 import os
 import shutil
@@ -7,6 +11,8 @@ import tempfile
 import pytest
 
 CACHE = "ROUGHFILM_CACHE"
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read when numpy is imported, which is later
 
 
 @pytest.fixture(autouse=True)

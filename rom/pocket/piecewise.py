@@ -28,17 +28,23 @@ class GaussRule:
 
 @lru_cache(maxsize=16)
 def gauss_rule(order: int) -> GaussRule:
-    """The rule with ``order`` nodes; for analytic integrands its error decreases geometrically with their number."""
+    """The rule with ``order`` nodes; for analytic integrands its error decreases geometrically with their number.
+
+    Primitives and slopes of the polynomials P_n are those of (2n + 1) P_n = P'_{n+1} - P'_{n-1}, with P_{-1} = -1.
+    """
     nodes, weights = legendre.leggauss(order)
-    degree = np.arange(order)
-    to_series = (legendre.legvander(nodes, order - 1) * weights[:, None]).T * (degree[:, None] + 0.5)
-    primitives = legendre.legint(np.eye(order), lbnd=-1)
+    twice = 2 * np.arange(order) + 1
+    values = legendre.legvander(nodes, order)
+    to_series = (values[:, :-1] * weights[:, None]).T * (twice[:, None] / 2)
+    before = np.column_stack([-np.ones(order), values[:, :-2]])
+    terms, slopes = values[:, :-2] * twice[:-1], np.zeros((order, order))
+    slopes[:, 1::2], slopes[:, 2::2] = (np.cumsum(terms[:, first::2], axis=1) for first in (0, 1))
     check_nodes, check_weights = legendre.leggauss(order + 1)
     return GaussRule(
         nodes=nodes,
         weights=weights,
-        primitive=np.asarray(legendre.legval(nodes, primitives).T @ to_series),
-        derivative=np.asarray(legendre.legval(nodes, legendre.legder(np.eye(order))).T @ to_series),
+        primitive=(values[:, 1:] - before) / twice @ to_series,
+        derivative=slopes @ to_series,
         check_nodes=check_nodes,
         check_weights=check_weights,
         check=np.asarray(legendre.legvander(check_nodes, order - 1) @ to_series),

@@ -3,11 +3,28 @@
 import pkgutil
 from pathlib import Path
 
+import shellingham
 import typer
 
 from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.toml import read_toml
+
+SHELLS = "bash", "zsh", "fish", "powershell", "pwsh"
+"""The shells that typer has scripts for."""
+
+
+def needs_shell(option: str) -> None:
+    """Refuse an option that is for the shell that runs, where that shell is none of ``SHELLS``."""
+    try:
+        name, _ = shellingham.detect_shell()
+    except shellingham.ShellDetectionFailure:
+        name = "unknown"
+    if name not in SHELLS:
+        raise InputError(
+            f"{option}: the shell that runs this command is {name}; it must be one of {', '.join(SHELLS)}: "
+            "start the command from one of them"
+        )
 
 
 def kinds_beginning_with(incomplete: str) -> list[str]:

@@ -27,8 +27,11 @@ from forging import forge, sign
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 
-LIMIT_S = 20
-"""Time for one file, s, beyond which reading it counts as endless."""
+CPU_LIMIT_S = 20
+"""CPU time for one file, s, beyond which reading it counts as endless."""
+
+WAITING_LIMIT_S = 600
+"""Time for one file, s, beyond which a reader that takes no CPU time, as one of a pipe does, counts as endless."""
 
 MEMORY = 3 << 30
 """Address space that reading one file may take more, bytes."""
@@ -387,7 +390,7 @@ def _forged_growing(chance: random.Random, path: Path) -> str:
 
 
 class Endless(BaseException):
-    """Reading a file took longer than ``LIMIT_S``."""
+    """Reading a file took longer than ``CPU_LIMIT_S`` or ``WAITING_LIMIT_S``."""
 
 
 def judged(seed: int, kind: str, good: Path, folder: Path, expected: Any) -> Answer:
@@ -425,13 +428,19 @@ def _limited() -> Iterator[None]:
     def stop(_number: int, _frame: object) -> None:
         raise Endless
 
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.setitimer(signal.ITIMER_REAL, LIMIT_S)
+    limits = (
+        (signal.ITIMER_PROF, signal.SIGPROF, CPU_LIMIT_S),
+        (signal.ITIMER_REAL, signal.SIGALRM, WAITING_LIMIT_S),
+    )
+    before = [signal.signal(number, stop) for _, number, _ in limits]
+    for timer, _, limit in limits:
+        signal.setitimer(timer, limit)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        for (timer, number, _), handler in zip(limits, before, strict=True):
+            signal.setitimer(timer, 0)
+            signal.signal(number, handler)
 
 
 def made(kind: GoodFile, folder: Path) -> Path:

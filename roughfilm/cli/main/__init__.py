@@ -8,6 +8,7 @@ import typer
 from typer.core import TyperGroup
 
 from roughfilm.contact.foundation.writing.scratch import sweep_machine
+from roughfilm.terminal.completion import needs_shell
 from roughfilm.terminal.console import HELP_MODE, help_below, in_one_line, launch
 from roughfilm.terminal.openfoam import naming_openfoam
 
@@ -65,6 +66,11 @@ COMMANDS = {name: line for group in GROUPS.values() for name, line in group.item
 
 class _Commands(TyperGroup):
     """The commands as their help shows them, until one is called."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        for option in {"--install-completion", "--show-completion"}.intersection(args[:1]):
+            needs_shell(option)
+        return super().parse_args(ctx, args)
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
         name, _, rest = super().resolve_command(ctx, args)

@@ -106,7 +106,7 @@ def value(result, name):
 
 
 @pytest.mark.parametrize(
-    ("kind", "count"), [("pocket", 25), ("bearing", 40), ("dry_contact", 30), ("seal", 20), ("rough_gap", 25)]
+    ("kind", "count"), [("pocket", 25), ("bearing", 25), ("dry_contact", 30), ("seal", 20), ("rough_gap", 25)]
 )
 def test_every_rung_answers_as_the_laws_of_its_kind_allow(kind, count):
     ladder = rungs(kind)
@@ -125,7 +125,7 @@ def test_every_rung_answers_as_the_laws_of_its_kind_allow(kind, count):
 
 @pytest.mark.openfoam
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "count"), [("pocket", 2), ("rough_gap", 3)])
+@pytest.mark.parametrize(("kind", "count"), [("pocket", 2), ("rough_gap", 2)])
 def test_every_rung_of_openfoam_does_too(kind, count):
     ladder = [model for model in models(kind) if model.outside]
 

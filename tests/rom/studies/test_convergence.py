@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.ladder import find
-from roughfilm.rom.ladder.request import Request
-from roughfilm.rom.studies.convergence import ConvergenceKind, converge, convergence
+from roughfilm.rom.studies.convergence import ConvergenceKind, converge
 
 RATIOS = [(60, 120, 240), (40, 60, 90), (50, 60, 110), (12, 97, 101)]
 
@@ -140,19 +138,3 @@ def test_the_flow_between_parallel_walls():
 def test_what_is_no_sequence_is_refused_in_one_line(grids, values):
     with pytest.raises(InputError, match=r"^grids: got .*; give two or more, ever finer, with finite values$"):
         converge(grids, values, formal_order=2)
-
-
-@pytest.mark.openfoam
-@pytest.mark.parametrize(
-    ("width", "depth", "load", "least", "most"), [(0.30, 0.25, 3.303, 1.7, 2.5), (0.15, 0.50, 1.603, 1.0, 2.0)]
-)
-def test_load_of_navier_stokes_extrapolates_to_the_independent_value(make_scene, width, depth, load, least, most):
-    """Second order over a shallow groove; less over a short steep one, whose edges are sharper."""
-    model = find("pocket", "navier_stokes")
-    scene = make_scene(width, depth, 160)
-    found = convergence(model, [model.solve(scene, Request(resolution=n)) for n in (240, 60, 120)])["load_plus"]
-    assert found.grids == (60, 120, 240)
-    assert found.kind is ConvergenceKind.MONOTONE
-    assert least < found.order < most
-    assert abs(found.value - load) < found.uncertainty < 0.01 * load
-    assert found.value == pytest.approx(load, rel=1e-3)

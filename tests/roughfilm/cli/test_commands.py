@@ -12,6 +12,7 @@ from pathlib import Path
 
 import h5py
 import pytest
+import shellingham
 from places import SCENES
 from typer.testing import CliRunner
 
@@ -307,9 +308,31 @@ def test_the_command_is_installed():
 
 
 def test_completion_that_cannot_be_installed_is_one_line(monkeypatch, capsys):
+    monkeypatch.setattr(shellingham, "detect_shell", lambda: ("bash", "/bin/bash"))
     monkeypatch.setattr(signal, "signal", lambda *_: None)
     monkeypatch.setenv("HOME", "/proc/none")
     with pytest.raises(SystemExit) as ended:
-        launch(app, ["--install-completion", "bash"])
+        launch(app, ["--install-completion"])
     assert ended.value.code == 2
     assert "/proc/none: cannot be read or written" in one_line(capsys.readouterr().err)
+
+
+@pytest.mark.parametrize("option", ["--install-completion", "--show-completion"])
+@pytest.mark.parametrize("shell", ["sh", None])
+def test_a_shell_without_completion_is_refused_with_those_that_have_it(monkeypatch, capsys, option, shell):
+    def detect_shell():
+        if shell is None:
+            raise shellingham.ShellDetectionFailure
+        return shell, f"/bin/{shell}"
+
+    monkeypatch.setattr(shellingham, "detect_shell", detect_shell)
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    with pytest.raises(SystemExit) as ended:
+        launch(app, [option])
+    assert ended.value.code == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert one_line(printed.err) == (
+        f"error: {option}: the shell that runs this command is {shell or 'unknown'}; it must be one of "
+        "bash, zsh, fish, powershell, pwsh: start the command from one of them"
+    )

@@ -9,8 +9,10 @@ import signal
 import subprocess
 import sys
 import time
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -56,17 +58,51 @@ def reynolds_only(monkeypatch):
     monkeypatch.setattr(compare, "models", lambda _: (find("pocket", "reynolds"),))
 
 
+@dataclass(frozen=True)
+class Killed:
+    """A comparison by every model that was killed, and then run again to its end.
+
+    ``left`` has the results that were there after the kill with their times, ``page`` whether the page was.
+    """
+
+    out: Path
+    left: dict[Path, int]
+    page: bool
+    entries: dict[str, Any]
+
+
+@pytest.fixture(scope="module")
+def killed(tmp_path_factory):
+    out = tmp_path_factory.mktemp("killed")
+    command = [sys.executable, "-m", "roughfilm.cli.main", "compare", str(SCENES / "pocket.toml"), "--out", str(out)]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+    deadline = time.monotonic() + 120
+    while not list((out / "results").glob("stokes*.h5")) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    left = {path: path.stat().st_mtime_ns for path in (out / "results").glob("[!.]*.h5")}
+    for path in left:
+        load(path)
+    page = (out / "report.html").exists()
+    done = subprocess.run([*command, "--json"], capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0, done.stderr
+    return Killed(out=out, left=left, page=page, entries=json.loads(done.stdout))
+
+
 @pytest.mark.openfoam
 @pytest.mark.slow
-def test_the_whole_ladder_in_one_self_contained_page(pocket_file, tmp_path):
-    done = subprocess.run(
-        [sys.executable, "-m", "roughfilm.cli.main", "compare", str(pocket_file), "--out", str(tmp_path), "--json"],
-        capture_output=True,
-        text=True,
-        timeout=300,
-    )
-    assert done.returncode == 0, done.stderr
-    entries = json.loads(done.stdout)
+def test_a_killed_comparison_leaves_whole_results_and_goes_on(killed):
+    assert killed.left
+    assert not killed.page
+    assert {path: path.stat().st_mtime_ns for path in killed.left} == killed.left
+    assert (killed.out / "report.html").exists()
+
+
+@pytest.mark.openfoam
+@pytest.mark.slow
+def test_the_whole_ladder_in_one_self_contained_page(killed):
+    entries = killed.entries
     assert entries["model"] == "navier_stokes"
     names = ["reynolds", "inertial_reynolds", "film", "stokes", "film_slope", "navier_stokes"]
     assert names == [model.name for model in models("pocket")]
@@ -77,7 +113,7 @@ def test_the_whole_ladder_in_one_self_contained_page(pocket_file, tmp_path):
     assert ("stokes", "navier_stokes", "inertia") in named
     assert ("film", "navier_stokes", "slope") in named
     assert entries["cheapest_within_10_percent"] == "inertial_reynolds"
-    page = read_page(tmp_path / "report.html")
+    page = read_page(killed.out / "report.html")
     assert all(place.startswith("data:image/png;base64,") for place in page.outside)
     assert page.tags.count("svg") == 4
     found = entries["convergence"]["navier_stokes"]["load_plus"]
@@ -88,8 +124,8 @@ def test_the_whole_ladder_in_one_self_contained_page(pocket_file, tmp_path):
     if rendering.probe().available:
         assert page.tags.count("img") == 1
     for name in names:
-        assert load(tmp_path / "results" / f"{name}.h5").model == name
-    raw = json.loads((tmp_path / "chart.json").read_text())
+        assert load(killed.out / "results" / f"{name}.h5").model == name
+    raw = json.loads((killed.out / "chart.json").read_text())
     per_model = {name: sum(point["model"] == name for point in raw["points"]) for name in names}
     assert min(per_model.values()) >= 3
 
@@ -257,24 +293,3 @@ def test_finished_results_are_used_again_only_for_the_same_question(pocket_file,
     monkeypatch.setattr(runs, "model_code", lambda *_: "other code")
     runs.solved_once(job, lambda *_: None)
     assert job.path.stat().st_mtime_ns != stamp
-
-
-@pytest.mark.openfoam
-@pytest.mark.slow
-def test_a_killed_comparison_leaves_whole_results_and_goes_on(pocket_file, tmp_path):
-    command = [sys.executable, "-m", "roughfilm.cli.main", "compare", str(pocket_file), "--out", str(tmp_path)]
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
-    deadline = time.monotonic() + 120
-    while not list((tmp_path / "results").glob("stokes*.h5")) and time.monotonic() < deadline:
-        time.sleep(0.02)
-    os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
-    visible = [path for path in (tmp_path / "results").glob("*.h5") if not path.name.startswith(".")]
-    assert visible
-    stamps = {path: path.stat().st_mtime_ns for path in visible}
-    for path in visible:
-        load(path)
-    assert not (tmp_path / "report.html").exists()
-    assert subprocess.run(command, stdout=subprocess.DEVNULL, timeout=300).returncode == 0
-    assert (tmp_path / "report.html").exists()
-    assert {path: path.stat().st_mtime_ns for path in visible} == stamps

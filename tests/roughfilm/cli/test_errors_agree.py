@@ -26,22 +26,28 @@ SMOOTH = ("pocket", "splined", "two_grooves", "parabolic_slider")
 ROUGH = ("dry_contact", "seal", "rough_gap")
 
 
-@pytest.fixture
-def scene(request, tmp_path):
+def words_of(name, place):
     """The arguments of a command for an example scene; a rough surface is replaced by waves on 24 points a side."""
-    if request.param in SMOOTH:
-        return [f"{SCENES}/{request.param}.toml"]
+    if name in SMOOTH:
+        return [f"{SCENES}/{name}.toml"]
     x = 2 * np.pi * np.arange(24) / 24
-    np.save(tmp_path / "waves.npy", 1e-7 * (np.cos(x)[:, None] * np.cos(x) + 0.3 * np.cos(3 * x + 1)))
-    sets = [f"geometry.surface={tmp_path / 'waves.npy'}", "geometry.spacing=1um"]
-    return [f"{SCENES}/{request.param}.toml", *(word for text in sets for word in ("--set", text))]
+    np.save(place / "waves.npy", 1e-7 * (np.cos(x)[:, None] * np.cos(x) + 0.3 * np.cos(3 * x + 1)))
+    sets = [f"geometry.surface={place / 'waves.npy'}", "geometry.spacing=1um"]
+    return [f"{SCENES}/{name}.toml", *(word for text in sets for word in ("--set", text))]
 
 
-def without_outside(monkeypatch):
-    """Compare the models that run in this process, each run once."""
-    inside = tuple(model for model in models() if not model.outside)
-    monkeypatch.setattr(compare, "models", partial(of_kind, inside))
-    monkeypatch.setattr(jobs, "REPEATS", 1)
+@pytest.fixture(scope="module")
+def compared(request, tmp_path_factory):
+    """Text, entries and page of a comparison of the models that run in this process, each run once."""
+    place = tmp_path_factory.mktemp("compared")
+    command = "compare", *words_of(request.param, place), "--out", place / "study"
+    with pytest.MonkeyPatch.context() as patch:
+        inside = tuple(model for model in models() if not model.outside)
+        patch.setattr(compare, "models", partial(of_kind, inside))
+        patch.setattr(jobs, "REPEATS", 1)
+        text = run(*command)
+        printed = json.loads(run(*command, "--json").splitlines()[-1])
+    return text, printed, (place / "study" / "report.html").read_text(encoding="utf-8")
 
 
 def run(*arguments):
@@ -87,8 +93,9 @@ def contradictions(found):
     return {key: amounts for key, amounts in found.items() if len(amounts) != 1}
 
 
-@pytest.mark.parametrize("scene", [*SMOOTH, *ROUGH], indirect=True)
-def test_advice_and_solution_state_one_error_for_a_model_and_a_quantity(scene):
+@pytest.mark.parametrize("name", [*SMOOTH, *ROUGH])
+def test_advice_and_solution_state_one_error_for_a_model_and_a_quantity(name, tmp_path):
+    scene = words_of(name, tmp_path)
     advised, printed = run("advise", *scene), json.loads(run("advise", *scene, "--json"))
     entries = json.loads(run("solve", *scene, "--json").splitlines()[-1])
     titles = kind_of_name(entries["provenance"]["scene"]["kind"]).titles
@@ -112,13 +119,10 @@ def test_advice_and_solution_state_one_error_for_a_model_and_a_quantity(scene):
     assert contradictions(found) == {}
 
 
-@pytest.mark.parametrize("scene", ["pocket", "parabolic_slider", "dry_contact"], indirect=True)
-def test_table_page_and_json_of_a_comparison_state_one_error_for_a_model_and_a_quantity(scene, tmp_path, monkeypatch):
-    without_outside(monkeypatch)
-    text = run("compare", *scene, "--out", tmp_path / "study")
-    printed = json.loads(run("compare", *scene, "--out", tmp_path / "study", "--json").splitlines()[-1])
+@pytest.mark.parametrize("compared", ["pocket", "parabolic_slider", "dry_contact"], indirect=True)
+def test_table_page_and_json_of_a_comparison_state_one_error_for_a_model_and_a_quantity(compared):
+    text, printed, page = compared
     kind = kind_of_name(printed["provenance"]["scene"]["kind"])
-    page = (tmp_path / "study" / "report.html").read_text(encoding="utf-8")
     found = merged(*(of_result(entries, kind.titles) for entries in printed["models"]), statements(text, kind.titles))
     rows = defaultdict(set)
     table = text[text.index("errors measured against") :].partition("\n\n")[0]
@@ -158,10 +162,9 @@ def bound(amount):
     return sum(abs(float(part)) for part in re.findall(r"[\d.e-]+(?= %)", amount))
 
 
-def test_the_page_names_the_cheapest_model_whose_column_is_within_the_tolerance(pocket_file, tmp_path, monkeypatch):
-    without_outside(monkeypatch)
-    printed = json.loads(run("compare", pocket_file, "--out", tmp_path / "study", "--json").splitlines()[-1])
-    page = (tmp_path / "study" / "report.html").read_text(encoding="utf-8")
+@pytest.mark.parametrize("compared", ["pocket"], indirect=True)
+def test_the_page_names_the_cheapest_model_whose_column_is_within_the_tolerance(compared):
+    _, printed, page = compared
     cheapest = re.search(r"The cheapest model within 5 % [^.]*? is <b>(\w+)</b>", page)[1]
     assert cheapest == printed["cheapest_within_5_percent"]
     costs = {one["model"]: one["numerics"]["cpu_s"] for one in printed["models"]}

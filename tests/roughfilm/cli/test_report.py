@@ -46,6 +46,14 @@ def finished(tmp_path_factory):
     return place / "done"
 
 
+@pytest.fixture(scope="module")
+def reported(finished):
+    """The entries and the page of the report."""
+    run = CliRunner().invoke(app, ["report", str(finished), "--json"])
+    assert run.exit_code == 0, run.output
+    return json.loads(run.stdout), (finished / "report.html").read_text(encoding="utf-8")
+
+
 def test_a_sweep_is_read_side_by_side(finished):
     sweep = read_sweep(read_table(finished / "table.h5"), "pocket")
     assert len(sweep.names) == 36
@@ -58,10 +66,8 @@ def test_a_sweep_is_read_side_by_side(finished):
     assert features["slope"][splined] == pytest.approx(expected[splined] / 0.3)
 
 
-def test_the_report_orders_the_errors_of_every_model(finished):
-    run = CliRunner().invoke(app, ["report", str(finished), "--json"])
-    assert run.exit_code == 0, run.output
-    entries = json.loads(run.stdout)
+def test_the_report_orders_the_errors_of_every_model(finished, reported):
+    entries, page = reported
     assert entries["reference"] == "film_slope-100"
     assert entries["cases"] == 36
     rows = {row["setting"]: row for row in entries["settings"]}
@@ -70,14 +76,13 @@ def test_the_report_orders_the_errors_of_every_model(finished):
     assert rows["film-100"]["error"]["load_plus"]["worst"] == pytest.approx(error.max())
     law = rows["inertial_reynolds"]["ordered_by"]["friction_plus"]
     assert 0.5 < law["rank"] <= 1
-    page = (finished / "report.html").read_text(encoding="utf-8")
     assert "36 cases by 4 settings" in page
     assert not re.findall(r"(?:src|href)=\"http", page)
 
 
-def test_a_reference_that_leaves_effects_out_ranks_only_what_it_can_tell_apart(finished):
+def test_a_reference_that_leaves_effects_out_ranks_only_what_it_can_tell_apart(reported):
     """film_slope is itself off by some per cent by the laws; film differs from it by less in most cases."""
-    entries = json.loads(CliRunner().invoke(app, ["report", str(finished), "--json"]).stdout)
+    entries, page = reported
     bar = entries["reference_uncertainty"]["load_plus"]
     assert bar["known"] == bar["cases"]
     rows = {row["setting"]: row["error"]["load_plus"] for row in entries["settings"]}
@@ -86,7 +91,6 @@ def test_a_reference_that_leaves_effects_out_ranks_only_what_it_can_tell_apart(f
     assert largest - rows["film-100"]["median"] == pytest.approx(bar["median"], rel=1)
     orders = {(*one["settings"], one["quantity"]): one for one in entries["ranking"]}
     assert orders["reynolds", "film-100", "load_plus"]["order"] == "film-100 is nearer"
-    page = (finished / "report.html").read_text(encoding="utf-8")
     assert "Which models can be distinguished" in page
 
 

@@ -231,9 +231,13 @@ reynolds_cavitating = 48
 """
 
 
-def test_a_page_of_bearings_under_loads_answers_by_the_film_and_not_by_the_load(tmp_path):
-    done, _ = batch(SOMMERFELD, tmp_path)
-    run, page, entries = report(done)
+@pytest.fixture(scope="module")
+def journals(tmp_path_factory):
+    return batch(SOMMERFELD, tmp_path_factory.mktemp("journals"))[0]
+
+
+def test_a_page_of_bearings_under_loads_answers_by_the_film_and_not_by_the_load(journals):
+    run, page, entries = report(journals)
     assert run.stdout.splitlines()[-1].startswith("Largest least film thickness: ")
     assert page.headings[0] == "Least film thickness over what varies"
     assert [one["quantity"] for one in entries["answers"]] == ["film_min", "friction"]  # in N, which one line lacks
@@ -246,8 +250,9 @@ def test_a_page_of_bearings_under_loads_answers_by_the_film_and_not_by_the_load(
     assert least <= largest
 
 
-def test_an_unfinished_batch_under_loads_answers_by_the_film_too(tmp_path):
-    done, _ = batch(SOMMERFELD, tmp_path)
+def test_an_unfinished_batch_under_loads_answers_by_the_film_too(journals, tmp_path):
+    done = tmp_path / "done"
+    shutil.copytree(journals, done)
     case = sorted((done / "cases").iterdir())[0]
     for name in ("table.csv", "table.h5"):
         (done / name).unlink()

@@ -50,7 +50,7 @@ RUNS = {
 }
 """Small examples of the commands; report needs the sweep of batch before it, collect the cases of generate."""
 
-ONE_WIDTH = {"compare", "leakage", "report", "stribeck"}
+ONE_WIDTH = {"doctor", "compare", "leakage", "report", "stribeck"}
 """Commands that take seconds, which are run in the narrower terminal alone."""
 
 FILES = {"new", "schema"}

@@ -2,6 +2,7 @@
 
 import os
 import pty
+import shlex
 import subprocess
 import sys
 
@@ -42,7 +43,8 @@ def test_the_shell_completes_commands_options_kinds_and_models_and_leaves_files_
 
 
 def test_the_script_of_a_shell_names_the_command():
-    shown = program("--show-completion", "bash", capture_output=True, text=True)
+    command = f"{shlex.quote(sys.executable)} -m roughfilm.cli.main --show-completion; true"  # true: bash stays parent
+    shown = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=120, check=True)
     assert "complete -o default -F _roughfilm_completion roughfilm" in shown.stdout
 
 
