@@ -2,7 +2,7 @@
 
 import math
 
-from roughfilm.rom.advice.stated import percent, stated_errors
+from roughfilm.rom.advice.stated import LEAST_STATED, percent, stated_errors
 from roughfilm.rom.ladder.kind import kind_of
 from roughfilm.rom.ladder.result import Result
 from roughfilm.words.cost import cost_in_words
@@ -36,7 +36,8 @@ def value_of(result: Result, quantity: str) -> str:
     title, shown = f"{kind.titles[quantity]}{of_all}", result.quantities[name]
     size, unit = scale_of(shown.unit, abs(shown.value))
     own = result[quantity]
-    bar = "" if own.uncertainty is None or own.value == 0 else f" ± {percent(own.uncertainty / abs(own.value))}"
+    relative = math.nan if own.uncertainty is None or own.value == 0 else own.uncertainty / abs(own.value)
+    bar = f" ± {percent(relative)}" if relative >= LEAST_STATED else ""
     return f"{title} {digits(shown.value / size)}{unit and f' {unit}'}{bar}"
 
 
