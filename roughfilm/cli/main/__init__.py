@@ -8,7 +8,6 @@ import typer
 from typer.core import TyperGroup
 
 from roughfilm.contact.foundation.writing.scratch import sweep_machine
-from roughfilm.terminal.completion import needs_shell
 from roughfilm.terminal.console import HELP_MODE, help_below, in_one_line, launch
 from roughfilm.terminal.openfoam import naming_openfoam
 
@@ -69,6 +68,8 @@ class _Commands(TyperGroup):
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         for option in {"--install-completion", "--show-completion"}.intersection(args[:1]):
+            from roughfilm.terminal.completion import needs_shell  # no other command pays for it
+
             needs_shell(option)
         return super().parse_args(ctx, args)
 

@@ -56,7 +56,7 @@ def test_zero_is_a_number_where_it_has_a_meaning():
 
 
 def test_the_manual_lists_every_range():
-    page = (ROOT / "docs" / "scenes.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "reference" / "scenes.md").read_text(encoding="utf-8")
     section = page.partition("## Ranges")[2].partition("\n## ")[0]
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in section.splitlines() if line[:2] == "| "]
     listed = {unit: (float(least), float(most)) for _, unit, least, most in rows[1:]}

@@ -38,11 +38,11 @@ def reynolds_only(monkeypatch):
         ("splined", ["geometry.shift=1 um"], "deep, with its lowest point 1 µm downstream of its middle."),
         ("splined", ["geometry.shift=0 m"], "a splined groove 500 µm wide and 7.5 µm deep."),
         ("pocket", ONE, "in the still wall a groove of straight lines through 3 points 300 µm wide and 10 µm deep."),
-        ("pocket", ["geometry.position=-20 um"], "a cylindrical groove 300 µm wide and 7.5 µm deep, at -20 µm."),
+        ("pocket", ["geometry.position=-20 um"], "a cylindrical groove 300 µm wide and 7.5 µm deep, at −20 µm."),
         (
             "two_grooves",
             [],
-            "in the still wall a cylindrical groove 300 µm wide and 7.5 µm deep, at -250 µm; a splined groove 400 µm "
+            "in the still wall a cylindrical groove 300 µm wide and 7.5 µm deep, at −250 µm; a splined groove 400 µm "
             "wide and 15 µm deep, with its lowest point 100 µm upstream of its middle, at 200 µm.",
         ),
         ("two_grooves", [FIVE], "in the still wall 5 grooves, at most 44 µm wide and 3 µm deep."),
