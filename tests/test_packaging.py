@@ -5,6 +5,7 @@ import subprocess
 import sys
 import sysconfig
 import tarfile
+import tomllib
 import zipfile
 from pathlib import Path
 
@@ -90,3 +91,8 @@ def test_an_installation_works_beside_a_users_own_contact_rom_foamcases_and_scri
         (user / name).write_text("raise ImportError('a file of the user was imported')\n", encoding="utf-8")
     assert run(python, "-c", IMPORTED, cwd=user).startswith(str(site if kind == "wheel" else ROOT))
     assert "film_slope" in run(environment / "bin" / "roughfilm", "models", "--json", cwd=user, path=str(user))
+
+
+def test_the_citation_names_the_version():
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+    assert f"\nversion: {version}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
