@@ -40,7 +40,7 @@ class MapOutcome(StrEnum):
 
 
 MEANING: Mapping[MapOutcome, str] = {
-    MapOutcome.CONVERGED: "correct, according to the judge of the map",
+    MapOutcome.CONVERGED: "correct, compared with the reference of the map",
     MapOutcome.SLOW: "correct, but after many iterations or in a second run by a costlier recipe",
     MapOutcome.INACCURATE: "far from the truth, and reported so: by an uncertainty, a warning, or an effect left out",
     MapOutcome.STALLED: "no answer: the solver stopped and reported it",

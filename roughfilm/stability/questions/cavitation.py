@@ -1,4 +1,4 @@
-"""Films that test the default cavitation solver, each with its own judge."""
+"""Films that test the default cavitation solver, each with its own check."""
 
 from collections.abc import Iterator
 from dataclasses import replace

@@ -109,9 +109,9 @@ def test_the_page_holds_its_pictures_and_nothing_from_elsewhere(run, csv, tmp_pa
     for title in ("Heights", "Joints", "Bearing curve", "Power spectrum", "Parameters", "Recipe"):
         assert f"<h2>{title}</h2>" in page
     first = page[page.index("<h1>") : page.index("<h2>")]
-    told = json.loads(run(csv, "--json").stdout)["quantities"]
+    quantities = json.loads(run(csv, "--json").stdout)["quantities"]
     for name in ("Sq", "Sa"):
-        before, after = (1e6 * told[key]["value"] for key in (f"raw_{name}", name))
+        before, after = (1e6 * quantities[key]["value"] for key in (f"raw_{name}", name))
         assert f"<b>{after:.4g} µm</b>" in first
         assert f"{before:.4g} µm measured" in first
         assert f"{name} changed by {percent(after / before - 1)}" in first

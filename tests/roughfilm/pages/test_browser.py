@@ -142,12 +142,12 @@ def _hovered(page, figure):
       return [[x, y], panel.map && !panel.series.length ? [panel.map] : [panel.x, panel.y]];
     }""")
     page.mouse.move(*place)
-    told = page.locator(".reading").inner_text()
+    reading = page.locator(".reading").inner_text()
     for quantity in words:
         if not quantity.get("places"):
-            assert f"{quantity['name']}: " in told
-            assert quantity["unit"] in told
-    return told
+            assert f"{quantity['name']}: " in reading
+            assert quantity["unit"] in reading
+    return reading
 
 
 @pytest.mark.parametrize("kind", ["surface", "contact"])
