@@ -89,6 +89,31 @@ def prepare(surface: Surface, recipe: Recipe) -> Prepared:
     ----------
     F. Sahlin, Lubrication, contact mechanics and leakage between rough surfaces, Luleå 2008, sections E.3.1 and F.3.
     """
+    return cell_of(level(surface, recipe), recipe)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Levelled:
+    """A measured surface after the steps that come before its window is cut.
+
+    Attributes
+    ----------
+    original : the surface as it was read.
+    measured : after removal of the form; invalid points are still marked.
+    filled : ``measured`` with invalid points filled.
+    clipped : ``filled`` without outliers.
+    record : data and changes of each step, as entries that JSON can hold.
+    """
+
+    original: Surface
+    measured: Surface
+    filled: Surface
+    clipped: Surface
+    record: Mapping[str, Any]
+
+
+def level(surface: Surface, recipe: Recipe) -> Levelled:
+    """Prepare a surface by the steps before its window is cut, which many windows share; raises as `prepare`."""
     invalid = float(surface.invalid.mean())
     if invalid > MAX_INVALID_FRACTION:
         raise InputError(f"invalid points: they are {100 * invalid:.0f} % of all; measure again")
@@ -96,7 +121,30 @@ def prepare(surface: Surface, recipe: Recipe) -> Prepared:
     _refuse_constant(measured, surface)
     filled, residual = fill_invalid(measured)
     clipped, cut = cut_outliers(filled, bins=recipe.outliers.bins, points=recipe.outliers.points)
-    window = _window(clipped, recipe.window, surface.invalid)
+    record = {
+        "invalid": {
+            "points": int(surface.invalid.sum()),
+            "measured": surface.heights.size,
+            "fraction": invalid,
+            "residual": residual,
+        },
+        "outliers": asdict(cut),
+    }
+    return Levelled(original=surface, measured=measured, filled=filled, clipped=clipped, record=record)
+
+
+def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) -> Prepared:
+    """Prepare the periodic cell of a levelled surface by the steps from the window on; raises as `prepare`.
+
+    Parameters
+    ----------
+    levelled : the surface after the steps before.
+    recipe : the recipe.
+    window : the window, in place of that of the recipe.
+    """
+    surface, clipped = levelled.original, levelled.clipped
+    if window is None:
+        window = _window(clipped, recipe.window, surface.invalid)
     windowed = cut_window(clipped, window)
     in_window = float(surface.invalid[window.slices].mean())
     if in_window > MAX_INVALID_FRACTION:
@@ -108,14 +156,8 @@ def prepare(surface: Surface, recipe: Recipe) -> Prepared:
     _refuse_constant(smoothed, surface)
     mismatch = periodicity_mismatch(smoothed)
     record = {
-        "invalid": {
-            "points": int(surface.invalid.sum()),
-            "measured": surface.heights.size,
-            "fraction": invalid,
-            "in_window": in_window,
-            "residual": residual,
-        },
-        "outliers": asdict(cut),
+        "invalid": {**levelled.record["invalid"], "in_window": in_window},
+        "outliers": levelled.record["outliers"],
         "window": {"start": list(window.start), "pixels": list(window.shape)},
         "grid": {"points": list(cell.shape), "spacing": list(cell.spacing)},
         "edges": {"direction": direction, "width": list(width), "reason": reason},
@@ -123,8 +165,8 @@ def prepare(surface: Surface, recipe: Recipe) -> Prepared:
     }
     source = {"prepared_from": dict(surface.source), "recipe": recipe_entries(recipe), "record": record}
     return Prepared(
-        measured=measured,
-        filled=filled,
+        measured=levelled.measured,
+        filled=levelled.filled,
         cell=cell,
         joined=joined,
         surface=smoothed.with_heights(smoothed.heights, source=source),
