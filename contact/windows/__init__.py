@@ -1,0 +1,1 @@
+"""Many windows of one surface: their places, the scatter of a quantity between them, and its trend with their size."""

@@ -1,0 +1,150 @@
+"""Places of windows on a measurement, and the number of independent windows that they are worth."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import scipy
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.parameters.autocorrelation import DECAY_THRESHOLD, autocorrelation
+from roughfilm.contact.preparation.window import Window
+from roughfilm.contact.surfaces.surface import Surface
+
+MAX_WINDOWS = 10_000
+"""Largest number of windows of one measurement."""
+
+COARSE_PIXELS = 512
+"""Number of pixels along each axis above which the autocorrelation of a surface is coarsened."""
+
+
+def window_places(shape: tuple[int, int], window_shape: tuple[int, int], count: int) -> tuple[Window, ...]:
+    """Spread windows of one shape evenly over a measurement, without overlap as long as they fit.
+
+    The windows stand in columns along y, which are spread evenly along x; the numbers of windows in two columns differ
+    by at most one. Of all numbers of columns, that with the least total overlap is taken, and of these that with the
+    largest distance between neighbours in units of the window. The result is deterministic.
+
+    Parameters
+    ----------
+    shape : number of pixels of the measurement along x and y.
+    window_shape : number of pixels of each window.
+    count : number of windows, 1 to 10 000.
+
+    Raises
+    ------
+    InputError
+        If the window is not inside the measurement, or the count is out of range.
+
+    Examples
+    --------
+    >>> [window.start for window in window_places((100, 60), (40, 30), 4)]
+    [(0, 0), (0, 30), (60, 0), (60, 30)]
+    """
+    if not 1 <= count <= MAX_WINDOWS:
+        raise InputError(f"windows: got {count}; take 1 to {MAX_WINDOWS}")
+    for axis, (size, most) in enumerate(zip(window_shape, shape, strict=True)):
+        if not 2 <= size <= most:
+            raise InputError(f"windows: got {size} pixels along {'xy'[axis]}, where the surface has {most}; take fewer")
+    candidates = (_in_columns(shape, window_shape, count, columns) for columns in range(1, count + 1))
+    starts = min(candidates, key=lambda starts: _crowding(starts, window_shape))
+    return tuple(Window(start=(int(x), int(y)), shape=window_shape) for x, y in starts)
+
+
+def _in_columns(shape: tuple[int, int], window: tuple[int, int], count: int, columns: int) -> Array:
+    """Starts of windows in a number of columns, shape (count, 2), pixels."""
+    rooms = [most - size for most, size in zip(shape, window, strict=True)]
+    ends = np.rint(np.linspace(0, count, columns + 1)).astype(int)
+    return np.array(
+        [(x, y) for x, n in zip(_even(rooms[0], columns), np.diff(ends), strict=True) for y in _even(rooms[1], int(n))]
+    )
+
+
+def _even(room: int, count: int) -> Array:
+    """Evenly spread starts from 0 to ``room``; a single one is in the middle."""
+    return np.rint(np.linspace(0, room, count)) if count > 1 else np.array([float(room // 2)])
+
+
+def _crowding(starts: Array, window: tuple[int, int]) -> tuple[float, float]:
+    """The total overlap of all pairs, and minus the least distance of two windows in units of the window."""
+    if len(starts) == 1:
+        return 0.0, 0.0
+    apart = np.abs(starts[:, None] - starts) / window
+    overlap = np.clip(1 - apart, 0, None).prod(axis=2)
+    np.fill_diagonal(overlap, 0.0)
+    distance = apart.max(axis=2)
+    np.fill_diagonal(distance, np.inf)
+    return round(float(overlap.sum()), 9), -round(float(distance.min()), 9)
+
+
+def independent_windows(windows: Sequence[Window], surface: Surface | None = None) -> float:
+    """The effective number of independent windows, nₑ = n² / Σᵢⱼ ρᵢⱼ, by which the variance of a mean is reduced.
+
+    ρᵢⱼ is the correlation of a quantity between two windows, for which that of the mean of a local quantity is taken:
+    ρ(d) = ∫Λ(t − d) c(t) dt / ∫Λ(t) c(t) dt with the autocorrelation Λ of a window, the product of two triangles, and
+    the autocorrelation c of the local quantity. Without a surface, c is a point, and ρ is the overlap as a fraction of
+    a window. With a surface, c = r² in the central lobe of its autocorrelation r, where r exceeds 0.2, which is the
+    correlation of the squares of Gaussian heights: windows along a lay count less.
+
+    Parameters
+    ----------
+    windows : windows of one shape.
+    surface : the measurement, m.
+
+    Returns
+    -------
+    float : 1 to the number of windows.
+
+    Raises
+    ------
+    InputError
+        If there are no windows, or their shapes differ.
+
+    Examples
+    --------
+    >>> apart = [Window(start=(x, 0), shape=(10, 10)) for x in (0, 10, 20)]
+    >>> independent_windows(apart)
+    3.0
+    >>> same = [Window(start=(0, 0), shape=(10, 10))] * 3
+    >>> independent_windows(same)
+    1.0
+    """
+    shapes = {window.shape for window in windows}
+    if len(shapes) != 1:
+        raise InputError(f"windows: got {len(windows)} windows of {len(shapes)} shapes; give some of one shape")
+    (shape,) = shapes
+    starts = np.array([window.start for window in windows], dtype=float)
+    apart = np.abs(starts[:, None] - starts)
+    if surface is None or np.ptp(surface.heights) == 0:
+        correlation = np.clip(1 - apart / shape, 0, None).prod(axis=2)
+    else:
+        correlation = _correlations(surface, shape, starts[:, None] - starts)
+    return float(min(max(len(windows) ** 2 / correlation.sum(), 1.0), len(windows)))
+
+
+def _correlations(surface: Surface, window: tuple[int, int], apart: Array) -> Array:
+    """The correlation ρ of the means of a local quantity, at displacements of shape (n, n, 2), pixels."""
+    steps = [max(1, count // COARSE_PIXELS) for count in surface.shape]
+    sums = _squared_lobe(surface)[
+        tuple(slice(n % step, None, step) for n, step in zip(surface.shape, steps, strict=True))
+    ]
+    for axis, (width, step) in enumerate(zip(window, steps, strict=True)):  # the triangle along each axis
+        reach = (width - 1) // step
+        triangle = 1 - step * np.abs(np.arange(-reach, reach + 1)) / width
+        sums = scipy.signal.fftconvolve(sums, np.expand_dims(triangle, 1 - axis), mode="same", axes=axis)
+    i, j = (np.rint(apart[..., axis] / steps[axis]).astype(int) + middle[axis] for axis in (0, 1))
+    ratio: Array = sums[i, j] / sums[middle[0], middle[1]]
+    return np.clip(ratio, 0.0, 1.0)
+
+
+def _squared_lobe(surface: Surface) -> Array:
+    """The square of the autocorrelation in its central lobe, at lags from minus to plus the size of the surface.
+
+    The autocorrelation is known up to half the size; a lobe that reaches there is continued by its last value.
+    """
+    r = autocorrelation(surface)
+    labels, _ = scipy.ndimage.label(r > DECAY_THRESHOLD)
+    lobe = np.where(labels == labels[r.shape[0] // 2, r.shape[1] // 2], r, 0.0) ** 2
+    more = [(count - size // 2, count - size // 2) for count, size in zip(surface.shape, lobe.shape, strict=True)]
+    padded: Array = np.pad(lobe, more, mode="edge")
+    return padded

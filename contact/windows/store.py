@@ -1,0 +1,143 @@
+"""A set of windows on disk: its periodic cells as surfaces of this package, and windows.json that lists them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from roughfilm.contact.foundation.brief import brief
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.files import write_json
+from roughfilm.contact.foundation.reading.json_entries import from_json
+from roughfilm.contact.foundation.reading.regular import read_bytes
+from roughfilm.contact.preparation.window import Window
+from roughfilm.contact.surfaces.store import load_surface, save_surface
+from roughfilm.contact.surfaces.surface import Surface
+
+LIST = "windows.json"
+"""The file of a set that lists its windows and holds all answers."""
+
+CELLS = "cells"
+"""The directory of the cells in that of a set."""
+
+FIRST_KEY = "windows_of"
+"""The first key of the file, by which it is recognised."""
+
+MAX_BYTES = 100_000_000
+"""Largest size of a list that is read, bytes."""
+
+REMEDY = "give a directory that 'roughfilm windows FILE --out DIR' wrote"
+
+
+@dataclass(frozen=True, kw_only=True)
+class WindowSet:
+    """Windows of one size of one surface, each prepared as a periodic cell.
+
+    Attributes
+    ----------
+    cells : the periodic cells.
+    windows : the place of each cell on the measurement; empty for seeds of a description.
+    size : length of the shorter side of a window, m.
+    independent : effective number of independent windows, 1 to the number of cells.
+    source : name of the file, digest and recipe of the surface, as entries that JSON can hold.
+    answers : scene, quantities, scatter and warnings, as entries that JSON can hold; empty where none are known.
+    """
+
+    cells: tuple[Surface, ...]
+    windows: tuple[Window, ...]
+    size: float
+    independent: float
+    source: Mapping[str, Any]
+    answers: Mapping[str, Any] = field(default_factory=dict)
+
+    __repr__ = brief
+
+    def __post_init__(self) -> None:
+        if not self.cells:
+            raise InputError("windows: a set has one cell at least")
+        if self.windows and len(self.windows) != len(self.cells):
+            raise InputError(f"windows: got {len(self.windows)} places of {len(self.cells)} cells; give one for each")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ListEntries:
+    """The content of windows.json; ``cells`` are paths in its directory, ``windows`` pairs of start and shape."""
+
+    windows_of: Mapping[str, Any]
+    size: float
+    independent: float
+    cells: Sequence[str]
+    windows: Sequence[tuple[tuple[int, int], tuple[int, int]]]
+    answers: Mapping[str, Any]
+
+
+def cell_path(number: int) -> str:
+    """The path of a cell in the directory of its set, from its number, 0 or more."""
+    return f"{CELLS}/{number + 1:04d}.h5"
+
+
+def save_windows(windows: WindowSet, directory: Path) -> None:
+    """Write a set of windows: its cells that are not there yet, then its list, each completely or not at all.
+
+    A cell file that exists with other content is replaced.
+
+    Raises
+    ------
+    InputError
+        If the directory cannot be written, or holds other files under these names.
+    """
+    for number, cell in enumerate(windows.cells):
+        save_surface(cell, directory / cell_path(number))
+    write_list(windows, directory)
+
+
+def write_list(windows: WindowSet, directory: Path) -> None:
+    """Write the list of a set whose cells are written already; raises as `save_windows`."""
+    write_json(
+        {
+            FIRST_KEY: dict(windows.source),
+            "size": windows.size,
+            "independent": windows.independent,
+            "cells": [cell_path(number) for number in range(len(windows.cells))],
+            "windows": [[list(window.start), list(window.shape)] for window in windows.windows],
+            "answers": dict(windows.answers),
+        },
+        directory / LIST,
+    )
+
+
+def is_window_set(directory: Path) -> bool:
+    """Whether a path is a directory with a list of windows."""
+    return (directory / LIST).is_file()
+
+
+def read_windows(directory: Path) -> WindowSet:
+    """Read a set of windows from the directory that ``roughfilm windows FILE --out DIR`` writes.
+
+    Raises
+    ------
+    InputError
+        If the directory has no list of windows, or the list or a cell is damaged.
+    """
+    path = directory / LIST
+    if not path.is_file():
+        raise InputError(f"{directory}: holds no {LIST}; {REMEDY}")
+    try:
+        entries = from_json(read_bytes(path, MAX_BYTES, REMEDY), ListEntries)
+    except ValueError as error:
+        raise InputError(f"{path}: {error}; write the set again") from None
+    for name in entries.cells:
+        if Path(name).is_absolute() or ".." in Path(name).parts:
+            raise InputError(f"{path}: names the cell {name!r:.60} outside of its directory; write the set again")
+    try:
+        return WindowSet(
+            cells=tuple(load_surface(directory / name) for name in entries.cells),
+            windows=tuple(Window(start=start, shape=shape) for start, shape in entries.windows),
+            size=entries.size,
+            independent=entries.independent,
+            source=entries.windows_of,
+            answers=entries.answers,
+        )
+    except InputError as error:
+        text = str(error)
+        raise InputError(text if text.startswith(str(directory)) else f"{path}: {text}") from None

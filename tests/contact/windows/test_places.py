@@ -1,0 +1,77 @@
+"""Windows are spread evenly and deterministically, and their number counts less where they overlap or share a lay."""
+
+from itertools import islice
+
+import numpy as np
+import pytest
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.preparation.window import Window
+from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.windows.places import independent_windows, window_places
+
+
+def overlaps(one, other):
+    return all(abs(a - b) < n for a, b, n in zip(one.start, other.start, one.shape, strict=True))
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 5, 9, 11, 12])
+def test_windows_that_fit_do_not_overlap_and_lie_inside(count):
+    places = window_places((103, 77), (25, 25), count)
+    assert len(places) == count
+    assert not any(overlaps(one, other) for i, one in enumerate(places) for other in places[:i])
+    assert all(0 <= one.start[0] <= 103 - 25 and 0 <= one.start[1] <= 77 - 25 for one in places)
+    assert independent_windows(places) == count
+    assert places == window_places((103, 77), (25, 25), count)
+
+
+def test_more_windows_than_fit_overlap_and_are_worth_less():
+    places = window_places((100, 100), (50, 50), 25)
+    assert len({one.start for one in places}) == 25
+    assert 1 < independent_windows(places) < 5
+
+
+def test_two_windows_that_share_half_are_worth_one_and_a_third():
+    pair = [Window(start=(0, 0), shape=(10, 8)), Window(start=(5, 0), shape=(10, 8))]
+    assert independent_windows(pair) == pytest.approx(4 / 3)
+
+
+def test_windows_along_a_lay_are_one_window():
+    rng = np.random.default_rng(3)
+    ridges = Surface(heights=np.repeat(rng.normal(size=(120, 1)), 120, axis=1), spacing=(1.0, 1.0))
+    along = [Window(start=(40, y), shape=(30, 30)) for y in (0, 30, 60, 90)]
+    across = [Window(start=(x, 40), shape=(30, 30)) for x in (0, 30, 60, 90)]
+    assert independent_windows(along, ridges) == pytest.approx(1.0, abs=1e-6)
+    assert independent_windows(across, ridges) > 3.5
+    assert independent_windows(along) == 4
+
+
+def ensemble(rng, lengths, count=256):
+    """Gaussian surfaces of rms height 1 with an autocorrelation exp(-2 t²/l²), one period each, cut to half of it."""
+    kx, ky = np.fft.fftfreq(count)[:, None], np.fft.rfftfreq(count)[None]
+    smooth = np.exp(-(np.pi**2) * ((kx * lengths[0]) ** 2 + (ky * lengths[1]) ** 2) / 4)
+    scale = np.sqrt(np.fft.irfft2(smooth**2, s=(count, count))[0, 0])
+    while True:
+        waves = np.fft.rfft2(rng.normal(size=(count, count))) * smooth / scale
+        yield np.fft.irfft2(waves, s=(count, count))[: count // 2, : count // 2]
+
+
+@pytest.mark.parametrize(
+    ("lengths", "size", "number"), [((3, 3), 32, 16), ((3, 3), 64, 9), ((3, 60), 32, 16), ((12, 12), 32, 16)]
+)
+def test_the_variance_of_a_mean_over_windows_is_that_of_the_independent_ones(lengths, size, number):
+    """Var(mean) = Var(one)/nₑ for the area above a height, which is no square, over 300 surfaces."""
+    rng = np.random.default_rng(7)
+    places = window_places((128, 128), (size, size), number)
+    surfaces = list(islice(ensemble(rng, lengths), 300))
+    areas = np.array([[(heights[one.slices] > 1).mean() for one in places] for heights in surfaces])
+    true = np.mean((areas - areas.mean()) ** 2) / areas.mean(axis=1).var()
+    found = [independent_windows(places, Surface(heights=heights, spacing=(1.0, 1.0))) for heights in surfaces[:10]]
+    assert np.median(found) == pytest.approx(true, rel=0.25)
+
+
+def test_windows_larger_than_the_measurement_or_of_two_shapes_are_refused():
+    with pytest.raises(InputError, match=r"got 40 pixels along y, where the surface has 30; take fewer"):
+        window_places((50, 30), (40, 40), 2)
+    with pytest.raises(InputError, match="of 2 shapes"):
+        independent_windows([Window(start=(0, 0), shape=(4, 4)), Window(start=(0, 0), shape=(5, 4))])
