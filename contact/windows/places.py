@@ -125,6 +125,7 @@ def independent_windows(windows: Sequence[Window], surface: Surface | None = Non
 def _correlations(surface: Surface, window: tuple[int, int], apart: Array) -> Array:
     """The correlation ρ of the means of a local quantity, at displacements of shape (n, n, 2), pixels."""
     steps = [max(1, count // COARSE_PIXELS) for count in surface.shape]
+    middle = [count // step for count, step in zip(surface.shape, steps, strict=True)]
     sums = _squared_lobe(surface)[
         tuple(slice(n % step, None, step) for n, step in zip(surface.shape, steps, strict=True))
     ]
