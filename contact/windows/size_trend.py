@@ -89,10 +89,10 @@ def size_trend(
 
     Effects of the joined or free edges of a window act on a margin whose fraction of the area is proportional to 1/L;
     long waves that do not fit into it act with 1/L² where the spectrum has rolled off. The regression a + b/L has the
-    weights 1/σ² of the means. The uncertainty of its limit a is the sum of that of the regression, which is scaled up where
-    the means do not lie on a line (χ² test), and of the difference from a regression on 1/L². It is not extrapolated if Sq
-    grows by more than L^0.1 between the two largest sizes, since longer waves then add to every quantity, or if more
-    than half of the value would be due to the size.
+    weights 1/σ² of the means. The uncertainty of its limit a is the sum of that of the regression, which is scaled up
+    where the means do not lie on a line (χ² test), and of the difference from a regression on 1/L². It is not
+    extrapolated if Sq grows by more than L^0.1 between the two largest sizes, since longer waves then add to every
+    quantity, or if more than half of the value would be due to the size.
 
     Parameters
     ----------
