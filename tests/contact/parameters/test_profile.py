@@ -81,8 +81,8 @@ def test_a_step_has_no_element():
     assert "Rsm" not in profile_parameters(np.repeat([0.0, 1.0], 50), 1e-6)
 
 
-def test_a_gaussian_profile_has_the_spacing_of_rice(gaussian_heights):
-    """Without discrimination, crossings lie π √(m0/m2) apart on average; that of 10 % removes few of a smooth profile."""
+def test_a_gaussian_profile_has_nearly_the_spacing_of_rice():
+    """Crossings lie π √(m0/m2) apart on average; the height discrimination removes few of a smooth profile."""
     n, s = 1 << 16, 0.02
     q = 2 * np.pi * np.fft.rfftfreq(n)
     noise = np.fft.rfft(np.random.default_rng(7403).normal(size=n))

@@ -222,7 +222,7 @@ def test_a_profile_has_those_of_a_surface_of_the_same_heights():
     line = profile_parameters(heights, 1e-6)
     plane = parameters(Surface(heights=heights.reshape(50, 80), spacing=(1e-6, 1e-6)))
     assert list(line) == list(PROFILE)
-    for name in "Ra Rq Rsk Rku Rk Rpk Rvk Rmr1 Rmr2".split():
+    for name in ["Ra", "Rq", "Rsk", "Rku", "Rk", "Rpk", "Rvk", "Rmr1", "Rmr2"]:
         assert line[name] == plane["S" + name[1:]]
     assert line["Rt"] == plane["Sz"]
 

@@ -1,4 +1,4 @@
-"""Hills are those of the definition, found by searching each level of the surface, on open, periodic and holed grids."""
+"""Hills are those of the definition, by a search of each level of the surface, on open, periodic and holed grids."""
 
 import numpy as np
 import pytest
