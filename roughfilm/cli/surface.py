@@ -25,7 +25,7 @@ from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, pr
 from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.numbers import in_unit
-from roughfilm.words.surface import preparation_steps
+from roughfilm.words.surface import preparation_steps, scale_limits
 
 EXAMPLES = ("roughfilm surface scripts/examples/surfaces/milled.toml --out cell.h5",)
 
@@ -90,6 +90,7 @@ def command(
     def shown() -> Iterator[Table | str]:
         yield _table(file.name, quantities)
         yield from preparation_steps(prepared)
+        yield f"parameters: {scale_limits(prepared)}"
 
     entries = {"quantities": values, "numerics": numerics, "provenance": provenance}
     points, rms = " x ".join(map(str, prepared.surface.heights.shape)), " ".join(in_unit(quantities["Sq"]))
