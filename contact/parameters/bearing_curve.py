@@ -1,4 +1,4 @@
-"""The bearing (Abbott, material ratio) curve of heights, and its core, peak and valley parameters."""
+"""The bearing (Abbott, material ratio) curve of heights: its core, its volumes, and heights at material ratios."""
 
 from dataclasses import dataclass
 
@@ -122,6 +122,79 @@ def bearing_core(ordered: Array) -> Core:
         peak_ratio=peak_ratio,
         valley_ratio=valley_ratio,
     )
+
+
+def material_ratio(ordered: Array, height: float) -> float:
+    """The material ratio Smr(c) or Rmr(c) at a height c: the fraction of the points above it, 0 to 1.
+
+    Parameters
+    ----------
+    ordered : shape (n,), m, from `descending`.
+    height : c, m, from the same origin as the heights.
+
+    Notes
+    -----
+    The curve is interpolated linearly between the sorted heights. Source: ISO 25178-2:2021, 4.5; ISO 21920-2:2021.
+
+    Examples
+    --------
+    >>> curve = descending([0.0, 1.0, 2.0, 3.0])
+    >>> material_ratio(curve, 1.5), height_at_ratio(curve, 0.5)
+    (0.5, 1.5)
+    """
+    return _ratio(ordered, height, int(np.count_nonzero(ordered > height)))
+
+
+def height_at_ratio(ordered: Array, ratio: float) -> float:
+    """The height Smc(p) or Rmc(p), m, above which the fraction p of the points lies; the inverse of `material_ratio`.
+
+    The difference of two of them is Sdc(p, q) or Rdc(p, q); Sxp is Sdc(2.5 %, 50 %).
+
+    Parameters
+    ----------
+    ordered : shape (n,), m, from `descending`.
+    ratio : p, 0 to 1.
+
+    Raises
+    ------
+    InputError
+        If the ratio is not from 0 to 1.
+    """
+    if not 0 <= ratio <= 1:
+        raise InputError(f"material ratio: got {ratio!r}; give a fraction from 0 to 1")
+    place = min(max(ratio * ordered.size - 0.5, 0.0), ordered.size - 1.0)
+    before = min(int(place), ordered.size - 2)
+    return float(ordered[before] + (place - before) * (ordered[before + 1] - ordered[before]))
+
+
+def material_volume(ordered: Array, ratio: float) -> float:
+    """The material volume Vm(p) = ∫₀ᵖ (Smc(r) − Smc(p)) dr above the height Smc(p), m³/m².
+
+    Parameters
+    ----------
+    ordered : shape (n,), m, from `descending`.
+    ratio : p, 0 to 1.
+
+    Raises
+    ------
+    InputError
+        If the ratio is not from 0 to 1.
+
+    Notes
+    -----
+    The mean over all points of their height above Smc(p): no error but that of Smc(p), of second order in 1/n for a
+    smooth curve. Source: ISO 25178-2:2021, 4.5.
+    """
+    height = height_at_ratio(ordered, ratio)
+    above = int(np.count_nonzero(ordered > height))
+    return float((ordered[:above] - height).sum()) / ordered.size
+
+
+def void_volume(ordered: Array, ratio: float) -> float:
+    """The void volume Vv(p) = ∫ₚ¹ (Smc(p) − Smc(r)) dr below the height Smc(p), m³/m²; like `material_volume`."""
+    height = height_at_ratio(ordered, ratio)
+    below = int(np.count_nonzero(ordered < height))
+    return float((height - ordered[ordered.size - below :]).sum()) / ordered.size
 
 
 def _ratio(ordered: Array, height: float, above: int) -> float:

@@ -51,6 +51,42 @@ def gaussian_core(rms: float) -> Core:
     )
 
 
+def gaussian_material_volume(ratio: float, rms: float) -> float:
+    """Material volume Vm(p) of Gaussian heights, Sq (φ(u) − u p) with the height u = Φ⁻¹(1 − p) over Sq, m³/m²."""
+    u = -float(scipy.special.ndtri(ratio))
+    return rms * (_normal(u) - u * ratio)
+
+
+def gaussian_void_volume(ratio: float, rms: float) -> float:
+    """Void volume Vv(p) of Gaussian heights, the material volume Vm(1 − p) of the inverted surface, m³/m²."""
+    return gaussian_material_volume(1 - ratio, rms)
+
+
+def sinusoid_material_volume(ratio: float, amplitude: float) -> float:
+    """Material volume Vm(p) of a sinusoid with the amplitude A, A (sin(πp)/π − p cos(πp)), m³/m²."""
+    return amplitude * (math.sin(math.pi * ratio) / math.pi - ratio * math.cos(math.pi * ratio))
+
+
+def sinusoid_void_volume(ratio: float, amplitude: float) -> float:
+    """Void volume Vv(p) of a sinusoid, the material volume Vm(1 − p) of the inverted surface, m³/m²."""
+    return sinusoid_material_volume(1 - ratio, amplitude)
+
+
+def summit_density(second_moment: float, fourth_moment: float) -> float:
+    """Density of all local maxima of an isotropic Gaussian surface, m4/(6π√3 m2), 1/m².
+
+    Parameters
+    ----------
+    second_moment : m2, the mean square slope along a line.
+    fourth_moment : m4, the mean square second derivative along a line, 1/m².
+
+    References
+    ----------
+    P. R. Nayak, Random process model of rough surfaces, J. Lubr. Technol. 93 (1971) 398, doi:10.1115/1.3451608.
+    """
+    return fourth_moment / (6 * math.pi * math.sqrt(3) * second_moment)
+
+
 def sinusoid_statistics(amplitude: float) -> HeightStatistics:
     """Height statistics of z = A sin x: Sa = 2A/π, Sq = A/√2, Sp = Sv = A, Ssk = 0, Sku = 3/2; A in m."""
     return HeightStatistics(

@@ -9,22 +9,25 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import Surface
 
-Form = Literal["none", "mean", "tilt", "quadratic"]
+Form = Literal["none", "mean", "tilt", "quadratic", "cubic", "quartic", "quintic", "sextic"]
 
-ORDERS: dict[Form, int] = {"mean": 0, "tilt": 1, "quadratic": 2}
+ORDERS: dict[Form, int] = {"mean": 0, "tilt": 1, "quadratic": 2, "cubic": 3, "quartic": 4, "quintic": 5, "sextic": 6}
 """Order of the polynomial for each form."""
 
 
 def remove_form(surface: Surface, form: Form) -> Surface:
     """Subtract the polynomial in x and y that fits the valid points best in the least-squares sense.
 
-    The polynomial minimises Σ (h − Σ c_ij x^i y^j)² over the valid points with i + j ≤ 0 (``"mean"``), 1 (``"tilt"``)
-    or 2 (``"quadratic"``); Legendre polynomials keep the normal equations well conditioned. A form of this order is
-    removed to rounding. ``"none"`` returns the surface unchanged.
+    The polynomial minimises Σ (h − Σ c_ij x^i y^j)² over the valid points with i + j ≤ 0 (``"mean"``), 1 (``"tilt"``),
+    2 (``"quadratic"``) and so on to 6 (``"sextic"``); Legendre polynomials keep the normal equations well conditioned.
+    A form of this order is removed to rounding. ``"none"`` returns the surface unchanged.
+
+    A sphere or a cylinder of radius R leaves a height of the order a⁴/(8 R³) after ``"quadratic"`` and a⁶/(16 R⁵) after
+    ``"quartic"``, with a half of the longer side.
 
     Returns
     -------
-    Surface : no longer periodic after ``"tilt"`` or ``"quadratic"``.
+    Surface : no longer periodic after ``"tilt"`` or a higher order.
 
     Raises
     ------
@@ -33,7 +36,7 @@ def remove_form(surface: Surface, form: Form) -> Surface:
 
     Notes
     -----
-    ISO 25178-2 calls this the F-operation.
+    This is the F-operation of ISO 25178-2; waves as long as a side, and for higher orders shorter ones, lose height.
     """
     if form == "none":
         return surface

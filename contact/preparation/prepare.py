@@ -13,6 +13,7 @@ from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_
 from roughfilm.contact.parameters.spectrum import power_spectrum, texture_direction
 from roughfilm.contact.preparation.edges import MIN_WIDTH, Direction, largest_width, make_periodic
 from roughfilm.contact.preparation.filling import fill_invalid
+from roughfilm.contact.preparation.filters import l_filter, nesting_warnings, s_filter
 from roughfilm.contact.preparation.form import remove_form
 from roughfilm.contact.preparation.grid import next_power_of_two, resample
 from roughfilm.contact.preparation.outliers import cut_outliers
@@ -53,7 +54,8 @@ class Prepared:
 
     Attributes
     ----------
-    measured : after removal of the form; invalid points are still marked.
+    measured : after removal of the form, and with an S- or L-filter after clipping and the filters; invalid points are
+        still marked.
     filled : ``measured`` with invalid points filled.
     cell : ``filled`` after clipping, cut to its window and resampled; edges as measured.
     joined : ``cell`` with joined edges.
@@ -99,7 +101,8 @@ class Levelled:
     Attributes
     ----------
     original : the surface as it was read.
-    measured : after removal of the form; invalid points are still marked.
+    measured : after removal of the form, and with an S- or L-filter after clipping and the filters; invalid points are
+        still marked.
     filled : ``measured`` with invalid points filled.
     clipped : ``filled`` without outliers.
     record : data and changes of each step, as entries that JSON can hold.
@@ -119,8 +122,15 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
         raise InputError(f"invalid points: they are {100 * invalid:.0f} % of all; measure again")
     measured = remove_form(surface, recipe.form)
     _refuse_constant(measured, surface)
-    filled, residual = fill_invalid(measured)
-    clipped, cut = cut_outliers(filled, bins=recipe.outliers.bins, points=recipe.outliers.points)
+    if recipe.s_filter is None and recipe.l_filter is None:
+        filled, residual = fill_invalid(measured)
+        clipped, cut = cut_outliers(filled, bins=recipe.outliers.bins, points=recipe.outliers.points)
+    else:
+        kept, cut = cut_outliers(measured, bins=recipe.outliers.bins, points=recipe.outliers.points)
+        measured = _scale_limited(kept, recipe)
+        _refuse_constant(measured, surface)
+        filled, residual = fill_invalid(measured)
+        clipped = filled
     record = {
         "invalid": {
             "points": int(surface.invalid.sum()),
@@ -129,6 +139,7 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
             "residual": residual,
         },
         "outliers": asdict(cut),
+        "scale": {"form": recipe.form, "s_filter": recipe.s_filter, "l_filter": recipe.l_filter},
     }
     return Levelled(original=surface, measured=measured, filled=filled, clipped=clipped, record=record)
 
@@ -158,6 +169,7 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
     record = {
         "invalid": {**levelled.record["invalid"], "in_window": in_window},
         "outliers": levelled.record["outliers"],
+        "scale": levelled.record["scale"],
         "window": {"start": list(window.start), "pixels": list(window.shape)},
         "grid": {"points": list(cell.shape), "spacing": list(cell.spacing)},
         "edges": {"direction": direction, "width": list(width), "reason": reason},
@@ -171,8 +183,15 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
         joined=joined,
         surface=smoothed.with_heights(smoothed.heights, source=source),
         record=record,
-        warnings=tuple(_warnings(record)),
+        warnings=(*nesting_warnings(surface, recipe.s_filter, recipe.l_filter), *_warnings(record)),
     )
+
+
+def _scale_limited(surface: Surface, recipe: Recipe) -> Surface:
+    """The surface after the S- and the L-filter of the recipe."""
+    if recipe.s_filter is not None:
+        surface = s_filter(surface, recipe.s_filter)
+    return surface if recipe.l_filter is None else l_filter(surface, recipe.l_filter)
 
 
 def _refuse_constant(surface: Surface, original: Surface) -> None:

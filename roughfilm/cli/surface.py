@@ -14,10 +14,12 @@ from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.foundation.writing.kinds import PAGE
+from roughfilm.contact.parameters.definitions import AREAL
 from roughfilm.contact.parameters.roughness_parameters import bearing_parameters, parameters
 from roughfilm.contact.preparation.prepare import Prepared, prepare
 from roughfilm.contact.preparation.recipe import AS_IT_IS, Reading, Recipe, load_recipe, recipe_entries
 from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD
 from roughfilm.contact.surfaces.store import MARK, save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
@@ -25,12 +27,18 @@ from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, pr
 from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.numbers import in_unit
-from roughfilm.words.surface import preparation_steps
+from roughfilm.words.surface import preparation_steps, scale_limits
 
 EXAMPLES = ("roughfilm surface scripts/examples/surfaces/milled.toml --out cell.h5",)
 
 SOURCES = ("ISO 25178-2:2021", "F. Sahlin, Luleå University of Technology 2008:26, sections E.3.1 and F.3")
 STEP_COUNT = 5
+
+OF_THE_CELL = {
+    "invalid_fraction": "points without a height",
+    "periodicity_mismatch": f"of opposite edges: good up to {MISMATCH_THRESHOLD:g}",
+}
+"""Meanings of the quantities that are no parameters of roughness."""
 
 
 def command(
@@ -90,6 +98,7 @@ def command(
     def shown() -> Iterator[Table | str]:
         yield _table(file.name, quantities)
         yield from preparation_steps(prepared)
+        yield f"parameters: {scale_limits(prepared)}"
 
     entries = {"quantities": values, "numerics": numerics, "provenance": provenance}
     points, rms = " x ".join(map(str, prepared.surface.heights.shape)), " ".join(in_unit(quantities["Sq"]))
@@ -125,11 +134,14 @@ def _quantities(prepared: Prepared) -> dict[str, Quantity]:
 
 
 def _table(name: str, quantities: Mapping[str, Quantity]) -> Table:
-    """Each quantity before and after preparation, lengths in µm."""
+    """Each quantity before and after preparation, lengths in µm, with its meaning; blank where a surface has none."""
     rows = []
-    for key, quantity in quantities.items():
-        if not key.startswith("raw_"):
-            raw = quantities.get(f"raw_{key}")
-            value, unit = in_unit(quantity)
-            rows.append((f"{key}, {unit}" if unit else key, "" if raw is None else in_unit(raw)[0], value))
-    return table_of(("parameter", "measured", "prepared"), rows, title=name, left=1)
+    for key in dict.fromkeys((*AREAL, *(key.removeprefix("raw_") for key in quantities))):
+        raw, value = (in_unit(quantities[one]) if one in quantities else ("", "") for one in (f"raw_{key}", key))
+        if raw[0] or value[0]:
+            unit = raw[1] or value[1]
+            meaning = AREAL[key].meaning if key in AREAL else OF_THE_CELL.get(key, "")
+            rows.append((f"{key}, {unit}" if unit else key, raw[0], value[0], meaning))
+    table = table_of(("parameter", "measured", "prepared", "meaning"), rows, title=name, left=1)
+    table.columns[-1].justify = "left"
+    return table

@@ -9,6 +9,14 @@ from roughfilm.contact.foundation.rounding import share as share
 from roughfilm.contact.foundation.rounding import with_error as with_error
 from roughfilm.contact.foundation.units import Quantity
 
+SURFACE_UNITS: Mapping[str, tuple[float, str]] = {
+    "m": (1e-6, "µm"),
+    "1/m": (1e3, "1/mm"),
+    "1/m^2": (1e6, "1/mm²"),
+    "1": (1.0, ""),
+}
+"""The unit in which roughness parameters of each SI unit are shown, and its size."""
+
 
 def digits(value: float) -> str:
     """A value to four digits, without a power of ten below a million."""
@@ -53,7 +61,6 @@ def span(least: float | None, largest: float | None) -> str:
 
 
 def in_unit(quantity: Quantity) -> tuple[str, str]:
-    """The number and unit of a quantity for people: lengths in µm."""
-    if quantity.unit == "m":
-        return f"{quantity.value * 1e6:.4g}", "µm"
-    return f"{quantity.value:.4g}", "" if quantity.unit == "1" else quantity.unit
+    """The number and unit of a quantity for people: lengths in µm, curvatures and densities per mm and mm²."""
+    scale, unit = SURFACE_UNITS.get(quantity.unit, (1.0, quantity.unit))
+    return f"{quantity.value / scale:.4g}", unit

@@ -32,7 +32,7 @@ USES = {
     "bearing_area": lambda z: bearing_area(z, load=1e6, hardness=1e9),
     "bearing_curve": bearing_curve,
     "height_statistics": height_statistics,
-    "profile_parameters": lambda z: profile_parameters(z.ravel()),
+    "profile_parameters": lambda z: profile_parameters(z.ravel(), 1e-6),
     "rearranged": lambda z: rearranged(z.ravel(), seed=1, folds=1, levels=1),
     "flow_factors": lambda z: flow_factors(z, SPACING),
     "line_factors": lambda z: line_factors(z.ravel()),

@@ -8,7 +8,15 @@ from scipy import integrate, stats
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters import exact
-from roughfilm.contact.parameters.bearing_curve import bearing_core, bearing_curve, descending
+from roughfilm.contact.parameters.bearing_curve import (
+    bearing_core,
+    bearing_curve,
+    descending,
+    height_at_ratio,
+    material_ratio,
+    material_volume,
+    void_volume,
+)
 
 NAMES = ("height", "peak", "valley", "peak_ratio", "valley_ratio")
 
@@ -138,3 +146,63 @@ def test_one_ratio_is_no_curve():
 def test_constant_heights_have_no_curve():
     with pytest.raises(InputError, match="all the same"):
         bearing_curve(np.full(20, 0.3))
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.5, 0.8])
+def test_closed_forms_of_volumes_are_their_quadratures(ratio):
+    """Vm(p) = ∫₀ᵖ (Smc(r) − Smc(p)) dr and Vv(p) = ∫ₚ¹ (Smc(p) − Smc(r)) dr."""
+    for curve, material, void in (
+        (exact.gaussian_bearing_curve, exact.gaussian_material_volume, exact.gaussian_void_volume),
+        (exact.sinusoid_bearing_curve, exact.sinusoid_material_volume, exact.sinusoid_void_volume),
+    ):
+        above, _ = integrate.quad(lambda r, curve=curve: curve(r, 2.0) - curve(ratio, 2.0), 0, ratio)
+        below, _ = integrate.quad(lambda r, curve=curve: curve(ratio, 2.0) - curve(r, 2.0), ratio, 1)
+        assert material(ratio, 2.0) == pytest.approx(above, rel=1e-7)
+        assert void(ratio, 2.0) == pytest.approx(below, rel=1e-7)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.8])
+def test_gaussian_heights_have_their_volumes(gaussian_heights, ratio):
+    ordered = descending(gaussian_heights(100_001, 3e-7))
+    assert material_volume(ordered, ratio) == pytest.approx(exact.gaussian_material_volume(ratio, 3e-7), rel=2e-4)
+    assert void_volume(ordered, ratio) == pytest.approx(exact.gaussian_void_volume(ratio, 3e-7), rel=2e-4)
+
+
+def test_the_volumes_of_a_sinusoid_converge_with_second_order():
+    counts = np.array([100, 200, 400, 800])
+    for volume, expected in (
+        (material_volume, exact.sinusoid_material_volume(0.1, 1.0)),
+        (void_volume, exact.sinusoid_void_volume(0.8, 1.0)),
+    ):
+        errors = [
+            abs(
+                volume(
+                    descending(np.sin(2 * np.pi * (np.arange(n) + 0.25) / n)), 0.1 if volume is material_volume else 0.8
+                )
+                - expected
+            )
+            for n in counts
+        ]
+        assert np.polyfit(np.log(counts), np.log(errors), 1)[0] < -1.8
+
+
+def test_material_and_void_differ_by_the_height_above_the_mean():
+    """Vv(p) − Vm(p) = Smc(p) − ⟨z⟩, whatever the heights."""
+    ordered = descending(np.random.default_rng(3313).gamma(2.0, 1e-6, 777))
+    for ratio in (0.0, 0.1, 0.37, 0.8, 1.0):
+        difference = void_volume(ordered, ratio) - material_volume(ordered, ratio)
+        assert difference == pytest.approx(height_at_ratio(ordered, ratio) - ordered.mean(), rel=1e-9)
+
+
+def test_the_height_at_a_ratio_inverts_the_ratio_at_a_height():
+    ordered = descending(np.random.default_rng(3314).normal(size=500))
+    for ratio in (0.01, 0.25, 0.5, 0.975):
+        assert material_ratio(ordered, height_at_ratio(ordered, ratio)) == pytest.approx(ratio, rel=1e-9)
+    assert (material_ratio(ordered, 9.0), material_ratio(ordered, -9.0)) == (0.0, 1.0)
+    assert (height_at_ratio(ordered, 0.0), height_at_ratio(ordered, 1.0)) == (ordered[0], ordered[-1])
+
+
+@pytest.mark.parametrize("ratio", [-0.1, 1.1, np.nan])
+def test_a_ratio_out_of_range_is_refused(ratio):
+    with pytest.raises(InputError, match="from 0 to 1"):
+        height_at_ratio(descending([0.0, 1.0]), ratio)

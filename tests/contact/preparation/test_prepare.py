@@ -5,6 +5,9 @@ import pytest
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters.roughness_parameters import parameters
+from roughfilm.contact.preparation.filters import l_filter, s_filter
+from roughfilm.contact.preparation.form import remove_form
+from roughfilm.contact.preparation.outliers import cut_outliers
 from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import Recipe, read_recipe, recipe_entries
 from roughfilm.contact.surfaces.files import read_surface
@@ -59,6 +62,25 @@ def test_every_step_leaves_its_mark():
     assert record["periodicity_mismatch"]["before"] > 0.5
     assert record["periodicity_mismatch"]["after"] < MISMATCH_THRESHOLD
     assert not prepared.warnings
+
+
+def test_filters_follow_the_outliers_and_precede_the_window():
+    """A spike does not spread: the heights are those of the filters on the surface whose spikes were cut."""
+    given = measured()
+    entries = {"s_filter": "6 um", "l_filter": "80 um", "grid": {"points": "kept"}, "edges": {"direction": "none"}}
+    prepared = prepare(given, read_recipe(entries))
+    form = remove_form(given, "quadratic")
+    kept, _ = cut_outliers(form)
+    expected = l_filter(s_filter(kept, 6e-6), 80e-6)
+    assert np.array_equal(prepared.measured.invalid, given.invalid)
+    assert np.allclose(prepared.measured.heights, expected.heights, rtol=0, atol=1e-9 * np.ptp(expected.heights))
+    assert np.array_equal(prepared.surface.heights[given.valid], prepared.measured.heights[given.valid])
+    assert prepared.record["scale"] == {"form": "quadratic", "s_filter": 6e-6, "l_filter": 80e-6}
+
+
+def test_nesting_indices_beyond_pixels_and_sides_warn():
+    warnings = prepare(measured(), read_recipe({"s_filter": "4 um", "l_filter": "0.5 mm"})).warnings
+    assert [warning.partition(":")[0] for warning in warnings] == ["s_filter", "l_filter"]
 
 
 def test_edges_and_middle_are_those_of_their_steps():
@@ -147,6 +169,8 @@ def test_a_joint_that_stays_bad_warns():
         ({"window": {"size": ["1 mm", "1 mm"]}}, "^window: got at least 834 pixels along x, where the surface has 300"),
         ({"edges": {"direction": "x", "width": "1 mm"}}, "^edges: got a width of .* pixels along x; give"),
         ({"outliers": {"points": 100_000}}, "^outliers: no bin of 1000 holds 100000 points"),
+        ({"s_filter": "1 mm"}, "^s_filter: got a nesting index of 0.001 m, longer than the shorter side"),
+        ({"l_filter": "1 um"}, "^l_filter: got a nesting index of 1e-06 m, shorter than the pixel spacing"),
         ({"grid": {"points": [12, 12]}, "smoothing": 13}, "^smoothing: got 13 points"),
         ({"grid": {"points": [50_000, 50_000]}}, "^grid: got 50000 x 50000 points; at most 100000000 are made"),
         ({"window": {"size": ["1e13 m", "1e13 m"]}}, "^window: got at least 1000000000 pixels along x"),

@@ -23,7 +23,7 @@ GIVEN = {"length": 0.42e-3, "points": 512, "roll_off": 60e-6}
 def test_steel_profiles_have_the_parameters_of_the_table(name, average, rms, skewness, kurtosis, seed):
     profile = ground_profile(STEEL_PROFILES[name], seed=seed, **GIVEN)
     assert profile.shape == (512,)
-    found = {key: quantity.value for key, quantity in profile_parameters(profile).items()}
+    found = {key: quantity.value for key, quantity in profile_parameters(profile, 0.42e-3 / 512).items()}
     assert found["Ra"] == pytest.approx(average, rel=1e-6)
     assert found["Rq"] == pytest.approx(rms, rel=1e-6)
     assert found["Rsk"] == pytest.approx(skewness, abs=1e-6)

@@ -9,13 +9,15 @@ import pytest
 from typer.testing import CliRunner
 
 from roughfilm.cli.main import app
+from roughfilm.contact.parameters.definitions import AREAL, GROUPS
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.words.numbers import percent
 
-PARAMETERS = ["Sa", "Sq", "Sp", "Sv", "Sz", "Ssk", "Sku", "Sk", "Spk", "Svk", "Smr1", "Smr2"]
-PARAMETERS += ["Sal", "Str", "Std", "St", "Spm", "Svm"]
+PARAMETERS = ["Sa", "Sq", "Sp", "Sv", "Sz", "St", "Ssk", "Sku", "Sk", "Spk", "Svk", "Smr1", "Smr2", "Sxp"]
+PARAMETERS += ["Vmp", "Vmc", "Vvc", "Vvv", "Sdq", "Sdr", "Sal", "Str", "Std", "Spd", "Spc", "S5p", "S5v", "S10z"]
+PARAMETERS += ["Spm", "Svm"]
 
 
 @pytest.fixture
@@ -96,7 +98,9 @@ def test_a_name_of_odd_bytes_does_no_harm(run, csv, tmp_path):
 def test_people_get_a_table_and_the_warnings(run, csv):
     done = run(csv, "--set", "edges.direction=none")
     assert done.exit_code == 0
-    assert re.search(r"Sa\b.*µm", done.output)
+    assert re.search(r"Sa\b.*µm.*mean absolute height", done.output)
+    places = [done.output.index(f"\n{name}") for name in PARAMETERS]
+    assert places == sorted(places)
     assert "filled: 1 invalid points" in done.output
     assert "warning: periodicity mismatch" in done.output
 
@@ -117,6 +121,33 @@ def test_the_page_holds_its_pictures_and_nothing_from_elsewhere(run, csv, tmp_pa
         assert f"{name} changed by {percent(after / before - 1)}" in first
     assert "measured.csv" in page
     assert not re.search(r'(src|href)="http', page)
+
+
+def test_the_page_groups_the_parameters_and_defines_them(run, csv, tmp_path):
+    run(csv, "--report", tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text()
+    places = [page.index(f">{heading}<") for heading in GROUPS.values()]
+    assert places == sorted(places)
+    for one in AREAL.values():
+        assert f"<td>{one.name}</td>" in page
+        assert one.meaning in page
+    assert "not scale-limited" in page
+
+
+def test_a_surface_without_hills_inside_its_edges_is_shown_without_their_parameters(run, tmp_path):
+    """A ridge across the whole surface; the periodic cell has one hill."""
+    lines = [
+        ",".join(f"{np.exp(-(((x - 30) / 9) ** 2)) + 1e-3 * (x * y % 7):.6f}" for x in range(60)) for y in range(50)
+    ]
+    (tmp_path / "ridge.csv").write_text("# spacing: 1 um, 1 um; heights: um\n" + "\n".join(lines) + "\n")
+    done = run(tmp_path / "ridge.csv", "--json", "--report", tmp_path / "page.html")
+    quantities = json.loads(done.stdout)["quantities"]
+    assert "raw_S10z" not in quantities
+    assert quantities["raw_Spd"]["value"] == 0
+    assert "<td>S10z</td><td>–</td>" in (tmp_path / "page.html").read_text()
+    shown = run(tmp_path / "ridge.csv")
+    assert shown.exit_code == 0
+    assert "Sdq" in shown.output
 
 
 def test_a_synthetic_surface_is_made_from_its_description(run, tmp_path):
