@@ -138,8 +138,8 @@ def _of_measurement(
         raise InputError("recipe: window: is set; the windows are chosen here, leave it out and give --size")
     progress(0.0, "levelling the measurement")
     levelled = level(surface, recipe)
-    clipped = levelled.clipped
-    found = decay_lengths(autocorrelation(clipped), clipped.spacing)
+    filled = levelled.filled
+    found = decay_lengths(autocorrelation(filled), filled.spacing)
     whole = cell_of(levelled, recipe, Window(start=(0, 0), shape=surface.shape))
     recipe = recipe.model_copy(
         update={"edges": recipe.edges.model_copy(update={"direction": whole.record["edges"]["direction"]})}
@@ -159,14 +159,14 @@ def _of_measurement(
                 size=min(n * step for n, step in zip(shape, surface.spacing, strict=True)),
                 cells=tuple(cells),
                 windows=places,
-                independent=independent_windows(places, clipped),
+                independent=independent_windows(places, filled),
             )
         )
     return Plan(
         name=name,
         groups=tuple(groups),
         source={"prepared_from": dict(surface.source), "recipe": recipe_entries(recipe)},
-        surface=clipped,
+        surface=filled,
         decay=(found.shortest, found.longest),
         warnings=tuple(warnings),
     )
