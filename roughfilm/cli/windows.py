@@ -9,7 +9,6 @@ import typer
 from rich.table import Table
 
 from roughfilm.batch.executors import local
-from roughfilm.batch.where import WAIT, Keys, OnMachines, Scheduler, Wait, Where, cluster_of
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import to_si
@@ -21,6 +20,12 @@ from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.windows.store import FIRST_KEY, LIST, WindowSet, save_windows, stored_list
 from roughfilm.rom.studies.table import TABLE, table_beginning, write_csv, write_hdf5
+from roughfilm.sampling.answer import answer_of, entries_of
+from roughfilm.sampling.asked import Asked, asked_of
+from roughfilm.sampling.plan import COUNT, USUAL, Plan, planned
+from roughfilm.sampling.run import examined
+from roughfilm.sampling.tabulate import FIRST_COLUMN
+from roughfilm.sampling.tabulate import table_of as columns_of
 from roughfilm.terminal.console import (
     NUMERICS,
     AsJson,
@@ -31,13 +36,9 @@ from roughfilm.terminal.console import (
     process_count,
     progress_bar,
 )
+from roughfilm.terminal.machines import WAIT, Keys, OnMachines, Scheduler, Wait, Where
 from roughfilm.terminal.output_file import alone, refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
-from roughfilm.windows.answer import answer_of, entries_of
-from roughfilm.windows.asked import Asked, asked_of
-from roughfilm.windows.plan import COUNT, USUAL, Plan, planned
-from roughfilm.windows.run import examined
-from roughfilm.windows.tabulate import table_of as columns_of
 from roughfilm.words.windows import headline, heads, quantity_cells
 
 EXAMPLES = (
@@ -110,7 +111,7 @@ def command(
         refuse_unwritable(
             (page, PAGE),
             (stored, entries_from(FIRST_KEY)),
-            (out / "table.csv", table_beginning("size")),
+            (out / "table.csv", table_beginning(FIRST_COLUMN)),
             (out / "table.h5", TABLE),
         )
         with alone(stored, "run"), scratch_directory() as scratch:

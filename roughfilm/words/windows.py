@@ -3,7 +3,7 @@
 from roughfilm.contact.windows.scatter import Scatter
 from roughfilm.contact.windows.size_trend import Verdict
 from roughfilm.rom.ladder.kind import kind_of_name
-from roughfilm.windows.answer import Answer, WindowQuantity
+from roughfilm.sampling.answer import Answer, WindowQuantity
 from roughfilm.words.numbers import share
 from roughfilm.words.scales import PERCENT, Scale, scale_for
 
@@ -65,13 +65,17 @@ def headline(answer: Answer, kind: str) -> str:
         parts.append(f"{side} {ends(found, scale)} (95 %)")
         if found.relative is not None:
             needed = f"; {one.needed} windows for {share(answer.tolerance)}" if one.needed is not None else ""
-            parts.append(f"mean known to {known_to(found.relative)}{needed}")
+            parts.append(f"mean known to {known_to(found)}{needed}")
     return ", ".join(parts)
 
 
-def known_to(relative: float) -> str:
-    """A relative uncertainty in words: per cent, or a factor where it is large."""
-    return share(relative) if relative < LARGE else f"a factor of {1 + relative:.2g}"
+def known_to(found: Scatter) -> str:
+    """The relative uncertainty of a mean in words: per cent, or a factor where a positive mean has a large one."""
+    if found.relative is None:
+        return "unknown"
+    if found.positive and found.relative > LARGE:
+        return f"a factor of {1 + found.relative:.2g}"
+    return share(found.relative)
 
 
 def size_part(one: WindowQuantity, scale: Scale) -> str:
@@ -100,6 +104,7 @@ def heads(tolerance: float) -> tuple[str, ...]:
     return (
         "quantity",
         "mean",
+        "known to",
         "one window (95 %)",
         "numerical ±",
         "due to size",
@@ -111,11 +116,10 @@ def heads(tolerance: float) -> tuple[str, ...]:
 def quantity_cells(name: str, one: WindowQuantity, kind: str) -> tuple[str, ...]:
     """The row of a quantity: mean with the uncertainty of the mean, one window, and what else is known."""
     scale, found = scale_of_quantity(name, one), one.scatter
-    unknown = float("inf")
-    half = found.mean_uncertainty
     return (
         scale.label(title_of(name, kind)),
-        scale.number(found.mean, unknown if half is None else half),
+        scale.number(found.mean),
+        known_to(found),
         ends(found, scale),
         "unknown" if one.numerical is None else scale.number(one.numerical),
         size_part(one, scale),

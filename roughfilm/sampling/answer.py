@@ -11,12 +11,13 @@ import scipy
 
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.windows.scatter import MIN_INDEPENDENT, Scatter, scatter, windows_needed
 from roughfilm.contact.windows.size_trend import SizeTrend, Verdict, growth_of, size_trend
-from roughfilm.windows.asked import Asked
-from roughfilm.windows.plan import DECAY_LENGTHS, Group, Plan
-from roughfilm.windows.quantities import Row
-from roughfilm.windows.run import Rows
+from roughfilm.sampling.asked import Asked
+from roughfilm.sampling.plan import DECAY_LENGTHS, Group, Plan
+from roughfilm.sampling.quantities import Row
+from roughfilm.sampling.run import Rows
 from roughfilm.words.numbers import finite_entries
 
 SIGNED = ("Ssk", "Rsk", "A12", "B2")
@@ -73,6 +74,7 @@ class Answer:
     headline : name of the quantity that is sought most.
     quantities : by name, that of the headline first.
     tolerance : relative tolerance for which ``needed`` counts windows.
+    cells : periodic cells of the largest windows.
     warnings : sentences.
     """
 
@@ -83,6 +85,7 @@ class Answer:
     headline: str
     quantities: Mapping[str, WindowQuantity]
     tolerance: float
+    cells: tuple[Surface, ...]
     warnings: tuple[str, ...]
 
     __repr__ = brief
@@ -116,6 +119,7 @@ def answer_of(plan: Plan, asked: Asked, rows: Rows, tolerance: float) -> Answer:
         headline=asked.headline if asked.headline in quantities else next(iter(quantities)),
         quantities=quantities,
         tolerance=tolerance,
+        cells=main.cells,
         warnings=(),
     )
     return replace(answer, warnings=tuple(_warnings(plan, rows, answer)))
