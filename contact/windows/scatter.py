@@ -26,6 +26,10 @@ TINY = float(np.finfo(float).tiny)
 """Smallest variance of which a logarithm is taken."""
 
 
+SAME = 1e-12
+"""Range of values over the largest below which they differ by rounding alone."""
+
+
 class Distribution(StrEnum):
     """The distribution of the values of windows, by what of them is normal."""
 
@@ -130,12 +134,16 @@ def scatter(values: Sequence[float] | Array, independent: float | None = None, p
     worth = float(count) if independent is None else float(independent)
     if not 1 <= worth <= count * (1 + 1e-9):
         raise InputError(f"independent: got {independent!r}; it must be 1 to the number of windows, {count}")
-    mean, deviation = float(x.mean()), _deviation(x, worth)
+    if np.ptp(x) <= SAME * np.abs(x).max():
+        x = np.full(count, x[0])
+    mean, deviation = float(x[0]) if np.ptp(x) == 0 else float(x.mean()), _deviation(x, worth)
     zeros = float((x == 0).mean())
     known = worth >= MIN_INDEPENDENT  # a positive quantity that is 0 in all windows has no interval either
     inside = further = None
     distribution = Distribution.LOGARITHMS if positive else Distribution.NORMAL
-    if known and positive and mean > 0:
+    if known and deviation == 0 and not (positive and mean == 0):
+        inside = further = (mean, mean)
+    elif known and positive and mean > 0:
         inside, further, distribution = _of_positive(x, mean, deviation, worth, zeros)
     elif known and not positive:
         half = _student(worth) * deviation

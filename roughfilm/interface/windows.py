@@ -1,4 +1,4 @@
-"""Many windows of a measured surface, or many seeds of a described one: scatter, trend with the size, windows needed."""
+"""Many windows of a measured surface, or seeds of a described one: scatter, effect of their size, and number."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -80,11 +80,11 @@ def windows(
     Examples
     --------
     >>> import roughfilm as rf
-    >>> surface = rf.read_surface("scripts/examples/surfaces/rough.toml")
-    >>> found = rf.windows(surface, count=16, sizes=[25e-6])
+    >>> surface = rf.read_surface("scripts/examples/surfaces/self_affine.toml")
+    >>> found = rf.windows(surface, count=12, size=0.25e-3, sizes=[0.125e-3])
     >>> sq = found.quantities["Sq"].scatter
     >>> sq.interval[0] < sq.mean < sq.interval[1], found.count
-    (True, 16)
+    (True, 12)
     """
     if not isinstance(surface, Surface | str | os.PathLike):
         raise InputError(f"surface: got {type(surface).__name__}; give a Surface or the name of its file")

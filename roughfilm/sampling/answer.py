@@ -3,8 +3,7 @@
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -18,7 +17,6 @@ from roughfilm.sampling.asked import Asked
 from roughfilm.sampling.plan import DECAY_LENGTHS, Group, Plan
 from roughfilm.sampling.quantities import Row
 from roughfilm.sampling.run import Rows
-from roughfilm.words.numbers import finite_entries
 
 SIGNED = ("Ssk", "Rsk", "A12", "B2")
 """Quantities of either sign, whose scatter is not that of their logarithms."""
@@ -230,43 +228,3 @@ def _warnings(plan: Plan, rows: Rows, answer: Answer) -> Iterator[str]:
 def _without_numbers(sentence: str) -> str:
     """A sentence without its numbers, so that those of different windows are counted together."""
     return "".join(" " if one.isdigit() or one in ".-" else one for one in sentence)
-
-
-def entries_of(answer: Answer) -> dict[str, Any]:
-    """The answer as entries that JSON can hold."""
-    entries: dict[str, Any] = finite_entries(
-        {
-            "surface": answer.name,
-            "headline": answer.headline,
-            "size": answer.size,
-            "windows": answer.count,
-            "independent": answer.independent,
-            "tolerance": answer.tolerance,
-            "quantities": {name: _quantity_entries(one) for name, one in answer.quantities.items()},
-        }
-    )
-    return entries
-
-
-def _quantity_entries(one: WindowQuantity) -> dict[str, Any]:
-    trend = {name: _listed(value) for name, value in asdict(one.trend).items()}
-    return {
-        "value": one.scatter.mean,
-        "unit": one.unit,
-        "uncertainty": one.scatter.mean_uncertainty,
-        "numerical_uncertainty": one.numerical,
-        "windows_needed": one.needed,
-        "windows_lacking": one.lacking,
-        "drift_by_chance": one.drift,
-        "scatter": _scatter_entries(one.scatter),
-        "trend": trend,
-        "by_size": [{"size": size, **_scatter_entries(found)} for size, found in one.by_size.items()],
-    }
-
-
-def _scatter_entries(found: Scatter) -> dict[str, Any]:
-    return {name: _listed(value) for name, value in vars(found).items()} | {"mean_uncertainty": found.mean_uncertainty}
-
-
-def _listed(value: Any) -> Any:
-    return value.tolist() if isinstance(value, np.ndarray) else value

@@ -1,10 +1,15 @@
-"""Scatter between windows in words and numbers."""
+"""Scatter between windows in words, in numbers, and as entries for JSON."""
+
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
 
 from roughfilm.contact.windows.scatter import Scatter
 from roughfilm.contact.windows.size_trend import Verdict
 from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.sampling.answer import Answer, WindowQuantity
-from roughfilm.words.numbers import share
+from roughfilm.words.numbers import finite_entries, share
 from roughfilm.words.scales import PERCENT, Scale, scale_for
 
 PLAIN = {
@@ -126,3 +131,43 @@ def quantity_cells(name: str, one: WindowQuantity, kind: str) -> tuple[str, ...]
         whole_surface(one, scale),
         "unknown" if one.needed is None else str(one.needed),
     )
+
+
+def entries_of(answer: Answer) -> dict[str, Any]:
+    """The answer as entries that JSON can hold."""
+    entries: dict[str, Any] = finite_entries(
+        {
+            "surface": answer.name,
+            "headline": answer.headline,
+            "size": answer.size,
+            "windows": answer.count,
+            "independent": answer.independent,
+            "tolerance": answer.tolerance,
+            "quantities": {name: _quantity_entries(one) for name, one in answer.quantities.items()},
+        }
+    )
+    return entries
+
+
+def _quantity_entries(one: WindowQuantity) -> dict[str, Any]:
+    trend = {name: _listed(value) for name, value in asdict(one.trend).items()}
+    return {
+        "value": one.scatter.mean,
+        "unit": one.unit,
+        "uncertainty": one.scatter.mean_uncertainty,
+        "numerical_uncertainty": one.numerical,
+        "windows_needed": one.needed,
+        "windows_lacking": one.lacking,
+        "drift_by_chance": one.drift,
+        "scatter": _scatter_entries(one.scatter),
+        "trend": trend,
+        "by_size": [{"size": size, **_scatter_entries(found)} for size, found in one.by_size.items()],
+    }
+
+
+def _scatter_entries(found: Scatter) -> dict[str, Any]:
+    return {name: _listed(value) for name, value in vars(found).items()} | {"mean_uncertainty": found.mean_uncertainty}
+
+
+def _listed(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray) else value

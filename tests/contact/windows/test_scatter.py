@@ -129,6 +129,12 @@ def test_the_windows_needed_reach_the_tolerance(positive):
     assert windows_needed(few, 0.1) < needed / 3
 
 
+def test_values_that_differ_by_rounding_have_no_scatter():
+    found = scatter([1.0, 1.0 + 2e-16, 1.0, 1.0 - 1e-16], positive=True)
+    assert (found.deviation, found.interval, found.mean_uncertainty) == (0, (1, 1), 0)
+    assert windows_needed(found, 0.05) == 3
+
+
 def test_values_that_are_no_numbers_or_below_zero_are_refused():
     with pytest.raises(InputError, match="1 of 3 are not finite"):
         scatter([1.0, math.nan, 2.0])
