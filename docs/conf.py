@@ -11,7 +11,7 @@ from sphinx.util import logging
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from scripts.manual import commands, formulas, interface, kept_examples, scene_keys, studies  # noqa: E402
+from scripts.manual import commands, formulas, interface, kept_examples, parameters, scene_keys, studies  # noqa: E402
 
 GALLERY, KEPT = ROOT / "docs" / "gallery", ROOT / "docs" / "kept_examples"
 EXAMPLES = ROOT / "scripts" / "examples" / "gallery"
@@ -78,6 +78,7 @@ def _write_references(_app: Any) -> None:
     """Write the pages that follow from the code and the studies, where they have changed."""
     pages = {f"reference/generated/keys_{kind}": scene_keys.page(kind) for kind in KINDS}
     pages |= {"reference/generated/commands": commands.page(), "reference/generated/api": interface.page()}
+    pages |= {"reference/generated/parameters": parameters.page()}
     pages |= {f"source/studies/{name}": text for name, text in studies.pages().items()}
     for name, text in pages.items():
         path = ROOT / "docs" / f"{name}.md"

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from roughfilm.interface.surfaces import parameters as parameters
     from roughfilm.interface.surfaces import prepare as prepare
     from roughfilm.interface.surfaces import press as press
+    from roughfilm.interface.surfaces import profile_parameters as profile_parameters
     from roughfilm.interface.surfaces import read_surface as read_surface
     from roughfilm.interface.sweeps import sweep as sweep
     from roughfilm.interface.windows import windows as windows
@@ -58,7 +59,7 @@ else:
         "interface.scenes": ("load_scene", "read_scene", "replace"),
         "interface.solving": ("advise", "compare", "models", "solve"),
         "interface.studies": ("load_study", "read_table", "run_study"),
-        "interface.surfaces": ("flow_factors", "parameters", "prepare", "press", "read_surface"),
+        "interface.surfaces": ("flow_factors", "parameters", "prepare", "press", "profile_parameters", "read_surface"),
         "interface.sweeps": ("sweep",),
         "interface.windows": ("windows",),
         "rom.ladder.kind": ("Scene",),

@@ -21,7 +21,7 @@ GROUPS: Mapping[Group, str] = {
 
 FROM_MEAN = "mean of the points: second order in the spacing, and better on a periodic surface"
 EXTREME = "second order in the spacing"
-CURVE = "second order in 1/n for a smooth bearing curve of n points"
+CURVE = "second order in 1/n for a smooth bearing curve of n different heights"
 SOURCE = "F. Sahlin, Luleå 2008"
 
 
@@ -168,7 +168,7 @@ AREAL: Mapping[str, Definition] = dict(
             "spatial",
             "Std",
             "direction of the ridges from x",
-            r"90^\circ + \arg\max_\theta \int |\hat z(q, \theta)|^2 q\, dq",
+            r"90^\circ + \theta,\; \int |\hat z(q, \theta)|^2 q\, dq \text{ greatest}",
             "deg",
             "4.3 (its angle is that of the wave vector, 90° away)",
             "0.1° with a dozen grooves in view",

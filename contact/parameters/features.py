@@ -1,6 +1,7 @@
 """Feature parameters of a surface, which come from its significant peaks and pits: Spd, Spc, S5p, S5v and S10z."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,8 +96,9 @@ def _significant(z: Array, surface: Surface, pruning: float) -> Features:
     )
 
 
-def _around(field: NDArray, places: NDArray[np.intp], shape: tuple[int, int]) -> NDArray:
+def _around(field: NDArray[Any], places: NDArray[np.intp], shape: tuple[int, int]) -> NDArray[Any]:
     """Values at the 3 x 3 points around each place, shape (3, 3, n), across the edges."""
     i, j = np.divmod(places, shape[1])
     steps = np.arange(-1, 2)
-    return field[np.add.outer(steps, i)[:, None] % shape[0], np.add.outer(steps, j)[None] % shape[1]]
+    near: NDArray[Any] = field[np.add.outer(steps, i)[:, None] % shape[0], np.add.outer(steps, j)[None] % shape[1]]
+    return near

@@ -1,5 +1,7 @@
 """The root mean square gradient Sdq and the developed interfacial area ratio Sdr of a surface."""
 
+import math
+
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
@@ -31,7 +33,7 @@ def rms_gradient(surface: Surface) -> float | None:
         if not known.size:
             return None
         total += float(known.mean())
-    return total**0.5
+    return math.sqrt(total)
 
 
 def developed_area(surface: Surface) -> float | None:

@@ -1,5 +1,6 @@
 """Parameters of a profile that depend on positions along it: section lengths, profile elements and gradient."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -65,8 +66,8 @@ def section_heights(z: Array, sections: int = SECTIONS) -> SectionHeights:
     Source: ISO 21920-2:2021, whose other height parameters are those of the whole evaluation length. ISO 4287:1997 had
     the same Rp, Rv and Rz, but averaged Ra and Rq over sampling lengths as well.
     """
-    if not 1 <= sections <= z.size:
-        raise InputError(f"sections: got {sections} in a profile of {z.size} points; give 1 to {z.size}")
+    if isinstance(sections, bool) or not isinstance(sections, int) or not 1 <= sections <= z.size:
+        raise InputError(f"sections: got {sections!r:.20} in a profile of {z.size} points; give 1 to {z.size}")
     parts = np.array_split(z, sections)
     return SectionHeights(
         peak=float(np.mean([part.max() for part in parts])), valley=float(np.mean([-part.min() for part in parts]))
@@ -88,7 +89,7 @@ def rms_profile_gradient(z: Array, spacing: float) -> float:
     resolved.
     """
     slope = np.diff(z) / spacing
-    return float((slope * slope).mean()) ** 0.5
+    return math.sqrt((slope * slope).mean())
 
 
 def profile_elements(z: Array, spacing: float, heights: SectionHeights) -> Elements | None:

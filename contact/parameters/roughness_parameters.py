@@ -112,14 +112,16 @@ def profile_parameters(
     Raises
     ------
     InputError
-        If the array has another number of dimensions, a height is not finite, all heights are equal, or the spacing or
-        the number of sections is out of range.
+        If the array has another number of dimensions, a height is not finite, all heights are equal, or another
+        argument is out of range.
     """
     shape = np.shape(heights)
     if len(shape) != 1:
         raise InputError(f"profile: got heights of shape {shape}; give one line of them")
     if not 0 < spacing < np.inf:
         raise InputError(f"spacing: got {spacing!r} m; give the distance of neighbouring points, above 0")
+    if profile not in ("P", "W", "R"):
+        raise InputError(f"profile: got {profile!r:.20}; give the letter 'P', 'W' or 'R'")
     z = deviations(heights)
     ordered = descending(heights)
     statistics, section = height_statistics(ordered), section_heights(z, sections)

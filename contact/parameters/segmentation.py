@@ -80,7 +80,7 @@ def _ends(joined: Indices) -> Indices:
 
 
 @called
-def _root(component: Indices, basin: int) -> int:
+def _root(component, basin):  # type: ignore[no-untyped-def]
     """The first basin of a component; the path to it is halved."""
     while component[basin] != basin:
         component[basin] = component[component[basin]]
@@ -89,7 +89,7 @@ def _root(component: Indices, basin: int) -> int:
 
 
 @called
-def _neighbour(i: int, j: int, side: int, nx: int, ny: int, periodic: bool) -> int:
+def _neighbour(i, j, side, nx, ny, periodic):  # type: ignore[no-untyped-def]
     """Flat index of one of the 3 x 3 points around a point, −1 beyond the edge of a surface that is not periodic."""
     ni, nj = i + side // 3 - 1, j + side % 3 - 1
     if 0 <= ni < nx and 0 <= nj < ny:
@@ -98,16 +98,7 @@ def _neighbour(i: int, j: int, side: int, nx: int, ny: int, periodic: bool) -> i
 
 
 @compiled
-def _flood(
-    heights: Array,
-    order: Indices,
-    basins: Indices,
-    peaks: Indices,
-    component: Indices,
-    joined: Indices,
-    periodic: bool,
-    pruning: float,
-) -> int:
+def _flood(heights, order, basins, peaks, component, joined, periodic, pruning):  # type: ignore[no-untyped-def]
     """Fill in the basin of each point, and the peak and the neighbour of each basin; return the number of basins.
 
     Basins are numbered in descending order of their peaks, so that the first basin of a component has its highest peak.

@@ -4,10 +4,10 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from roughfilm.contact.foundation.arrays import finite_arithmetic, unmasked
 from roughfilm.contact.foundation.errors import InputError
@@ -18,6 +18,7 @@ from roughfilm.contact.mechanics.half_space import Boundary
 from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
 from roughfilm.contact.mechanics.solid import Solid, composite_modulus
 from roughfilm.contact.parameters import roughness_parameters
+from roughfilm.contact.parameters.profile import SECTIONS
 from roughfilm.contact.preparation import prepare as preparation
 from roughfilm.contact.preparation.recipe import AS_IT_IS, load_recipe, read_recipe
 from roughfilm.contact.surfaces import files
@@ -44,14 +45,7 @@ def surface_of(heights: Heights, spacing: float | Sequence[float] | None) -> Sur
             count = int(heights.invalid.sum())
             raise InputError(f"heights: {count} of {heights.invalid.size} points are invalid; fill them by prepare()")
         return heights
-    try:
-        array = unmasked("heights", heights)
-    except InputError as error:
-        raise InputError(f"{error}, by prepare() of a Surface with these heights") from None
-    except ValueError:
-        raise InputError("heights: got rows of different lengths; give an array of shape (nx, ny)") from None
-    if array.dtype.kind not in "fiu":
-        raise InputError(f"heights: got an array of {array.dtype}; give real numbers in m")
+    array = _real_numbers(heights, "an array of shape (nx, ny)", ", by prepare() of a Surface with these heights")
     if len(places := np.argwhere(~np.isfinite(array))):
         remedy = "give finite heights, or a Surface with these points as invalid to prepare()"
         raise InputError(
@@ -60,6 +54,19 @@ def surface_of(heights: Heights, spacing: float | Sequence[float] | None) -> Sur
     if spacing is None:
         raise InputError("spacing: missing; give the distance of neighbouring points in m, or a pair (dx, dy)")
     return Surface(heights=array, spacing=_pair(spacing))
+
+
+def _real_numbers(heights: ArrayLike, form: str, remedy: str = "") -> NDArray[Any]:
+    """The heights as an array without masked points; raises InputError with the form or the remedy otherwise."""
+    try:
+        array = unmasked("heights", heights)
+    except InputError as error:
+        raise InputError(f"{error}{remedy}") from None
+    except ValueError:
+        raise InputError(f"heights: got rows of different lengths; give {form}") from None
+    if array.dtype.kind not in "fiu":
+        raise InputError(f"heights: got an array of {array.dtype}; give real numbers in m")
+    return array
 
 
 def _pair(spacing: float | Sequence[float]) -> tuple[float, float]:
@@ -163,27 +170,35 @@ def prepare(surface: Surface, recipe: str | Path | Mapping[str, Any] | None = No
 def parameters(heights: Heights, *, spacing: float | Sequence[float] | None = None) -> dict[str, Quantity]:
     """Compute the areal roughness parameters of ISO 25178-2 from heights relative to their mean.
 
-    The heights are neither filtered nor levelled.
+    The heights are neither filtered nor levelled: values are comparable between laboratories only with the nesting
+    indices of the filters before (`prepare`). `roughfilm.contact.parameters.definitions.AREAL` defines each parameter.
 
     Parameters
     ----------
-    heights : z, shape (nx, ny), m, upward; or a Surface.
+    heights : z, shape (nx, ny), m, upward; or a Surface, whose valid points count.
     spacing : distance of neighbouring points, m, or a pair (dx, dy); not for a Surface.
 
     Returns
     -------
     dict of Quantity
-        Sa, Sq, Sp, Sv, Sz, St, Spm, Svm, Sk, Spk, Svk, Sal in m; Std in degrees; Ssk, Sku, Smr1, Smr2, Str without
-        unit. Their uncertainty is unknown.
+        Heights Sa, Sq, Sp, Sv, Sz, St in m and Ssk, Sku without unit; of the bearing curve Sk, Spk, Svk, Sxp in m and
+        Smr1, Smr2 without unit; volumes Vmp, Vmc, Vvc, Vvv in m (m³/m²); slopes Sdq, Sdr without unit; Sal in m, Str
+        without unit, Std in degrees; of peaks and pits Spd in 1/m², Spc in 1/m, S5p, S5v, S10z, Spm, Svm in m. Their
+        uncertainty is unknown. Spc, S5p, S5v and S10z are left out if no hill or dale lies inside the edges, Sdq and
+        Sdr if no valid points are neighbours.
 
     Raises
     ------
     InputError
         If the heights are not finite numbers on at least 2 x 2 points, or are all equal.
 
+    Notes
+    -----
+    The errors are of second order in the spacing; that of Spc is of first order where peaks are not symmetric.
+
     References
     ----------
-    ISO 25178-2:2021.
+    ISO 25178-2:2021, with material ratios of 10 % and 80 % and a Wolf pruning of 5 % of Sz.
 
     Examples
     --------
@@ -194,7 +209,58 @@ def parameters(heights: Heights, *, spacing: float | Sequence[float] | None = No
     >>> round(1e6 * sq.value, 4), sq.unit
     (0.7071, 'm')
     """
-    return roughness_parameters.parameters(surface_of(heights, spacing))
+    surface = heights if isinstance(heights, Surface) and spacing is None else surface_of(heights, spacing)
+    return roughness_parameters.parameters(surface)
+
+
+def profile_parameters(
+    heights: ArrayLike,
+    *,
+    spacing: float,
+    sections: int = SECTIONS,
+    profile: Literal["P", "W", "R"] = "R",
+) -> dict[str, Quantity]:
+    """Compute the parameters of ISO 21920-2 of one profile from heights relative to their mean.
+
+    The heights are neither filtered nor levelled. `roughfilm.contact.parameters.definitions.PROFILE` defines each
+    parameter.
+
+    Parameters
+    ----------
+    heights : z, shape (n,), m, upward, equidistant.
+    spacing : distance of neighbouring points, m.
+    sections : number of section lengths over which Rp, Rv and Rz are averaged, 1 to n; all others are those of the
+        whole profile.
+    profile : first letter of the names: P of a primary profile, W of a waviness profile, R of a roughness profile.
+
+    Returns
+    -------
+    dict of Quantity
+        Ra, Rq, Rt, Rp, Rv, Rz, Rk, Rpk, Rvk, Rsm, Rc in m; Rsk, Rku, Rmr1, Rmr2, Rdq without unit. Their uncertainty is
+        unknown. Rsm and Rc are left out if the profile has no complete element, a hill and a dale.
+
+    Raises
+    ------
+    InputError
+        If the heights are not finite numbers in one line, or all equal, or another argument is out of range.
+
+    References
+    ----------
+    ISO 21920-2:2021.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughfilm as rf
+    >>> wave = 1e-6 * np.sin(2 * np.pi * np.arange(1000) / 100)
+    >>> found = rf.profile_parameters(wave, spacing=1e-6)
+    >>> round(1e6 * found["Rz"].value, 4), round(1e6 * found["Rsm"].value, 4)
+    (2.0, 100.0)
+    """
+    line = _real_numbers(heights, "one line of them")
+    return roughness_parameters.profile_parameters(
+        line, in_range("spacing", spacing, "m"), sections=sections, profile=profile
+    )
 
 
 def press(

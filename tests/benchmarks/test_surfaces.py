@@ -10,6 +10,7 @@ from places import BENCHMARKS
 
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.writing.kinds import JSON
+from roughfilm.contact.parameters.definitions import AREAL
 from roughfilm.contact.parameters.roughness_parameters import parameters
 from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import Recipe
@@ -38,7 +39,7 @@ def theirs(surface):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         other = surfalize.Surface(np.ascontiguousarray(surface.heights.T) * 1e6, *micro)
-        names = ("Sa", "Sq", "Sp", "Sv", "Sz", "Ssk", "Sku", "Sk", "Spk", "Svk", "Smr1", "Smr2", "Sal", "Str", "Std")
+        names = [name for name in AREAL if hasattr(other, name)]
         return {name: getattr(other, name)() for name in names}
 
 

@@ -135,6 +135,18 @@ BAD = {
     "heights in a row": (lambda scene, z: rf.press(z[0], spacing=1e-6, modulus=1e9, load=1e5), "shape (64,)"),
     "heights of ragged rows": (lambda scene, z: rf.parameters([[1.0], [1.0, 2.0]], spacing=1e-6), "heights: got"),
     "heights as text": (lambda scene, z: rf.parameters([["a", "b"]], spacing=1e-6), "give real numbers"),
+    "a profile of two lines": (lambda scene, z: rf.profile_parameters(z, spacing=1e-6), "give one line"),
+    "a profile of ragged rows": (
+        lambda scene, z: rf.profile_parameters([[1.0], [1.0, 2.0]], spacing=1e-6),
+        "give one line",
+    ),
+    "a profile as text": (lambda scene, z: rf.profile_parameters(["a", "b"], spacing=1e-6), "give real numbers"),
+    "a profile without spacing": (lambda scene, z: rf.profile_parameters(z[:, 0], spacing=0.0), "spacing"),
+    "a profile of no sections": (
+        lambda scene, z: rf.profile_parameters(z[:, 0], spacing=1e-6, sections=0),
+        "give 1 to 64",
+    ),
+    "a profile of no letter": (lambda scene, z: rf.profile_parameters(z[:, 0], spacing=1e-6, profile="Q"), "'R'"),
     "heights not finite": (lambda scene, z: rf.press(z * np.nan, spacing=1, modulus=1, load=1), "are not finite"),
     "masked heights": (
         lambda scene, z: rf.flow_factors(np.ma.masked_less(z, z.mean()), spacing=1e-6, gap=3e-6),
@@ -277,6 +289,18 @@ def test_a_surface_and_its_array_give_the_same(ridges):
     given = {"modulus": 1e9, "load": 1e6}
     assert np.array_equal(rf.press(surface, **given).gap, rf.press(ridges, spacing=1e-6, **given).gap)
     assert rf.parameters(surface) == rf.parameters(ridges, spacing=1e-6)
+
+
+def test_parameters_of_a_surface_are_those_of_its_valid_points(ridges):
+    invalid = np.zeros(ridges.shape, dtype=bool)
+    invalid[5:9, 5:9] = True
+    holed = rf.Surface(heights=np.where(invalid, 1.0, ridges), spacing=(1e-6, 1e-6), invalid=invalid)
+    assert rf.parameters(holed)["Sz"].value == rf.parameters(ridges, spacing=1e-6)["Sz"].value
+
+
+def test_a_profile_is_a_line_of_a_surface(ridges):
+    line = rf.profile_parameters(ridges[:, 0], spacing=1e-6)
+    assert line["Rt"].value == pytest.approx(np.ptp(ridges[:, 0]), rel=1e-12)
 
 
 def test_a_contact_carries_its_load_and_grows_with_it(ridges):

@@ -30,7 +30,7 @@ def test_points_that_no_section_length_divides_all_count():
     assert section_heights(z).total == pytest.approx(np.mean([np.ptp(part) for part in parts]))
 
 
-@pytest.mark.parametrize("sections", [0, -1, 12])
+@pytest.mark.parametrize("sections", [0, -1, 12, 2.5, "5"])
 def test_a_number_of_sections_that_is_none_is_refused(sections):
     with pytest.raises(InputError, match="give 1 to 11"):
         section_heights(np.linspace(-1, 1, 11), sections)

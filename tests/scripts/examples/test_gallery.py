@@ -474,6 +474,29 @@ def test_a_prepared_surface_fits_to_itself_and_keeps_its_middle() -> None:
         assert np.abs(cell.take(0, axis=axis) - cell.take(-1, axis=axis)).mean() < 1.5 * inside
 
 
+def test_crossed_waves_have_the_closed_forms_of_their_volumes_slopes_and_peaks() -> None:
+    """The volumes are integrals of the bearing curve over 4000² points of half a period.
+
+    On the grid of the program the same heights return in each period, which moves the height at 10 % by steps.
+    """
+    values = values_of("surfaces/volumes_and_peaks")
+    found, profile, height = values["found"], values["profile"], values["height"]
+    squares = sum((2 * np.pi / length) ** 2 for length in values["lengths"])
+    assert found["Sdq"] == pytest.approx(height * np.sqrt(squares) / 2, rel=1e-3)
+    assert found["Sdr"] == pytest.approx(found["Sdq"] ** 2 / 2, rel=0.01)
+    assert found["Spd"] == pytest.approx(2 / np.prod(values["lengths"]), rel=1e-9)
+    assert found["Spc"] == pytest.approx(height * squares / 2, rel=2e-3)
+    assert found["S10z"] == pytest.approx(2 * height, rel=1e-9)
+    wave = np.cos((np.arange(4000) + 0.5) * np.pi / 4000)
+    curve = np.sort(np.outer(wave, wave), axis=None)[::-1]
+    volume = (curve[: curve.size // 10] - curve[curve.size // 10]).sum() / curve.size
+    assert found["Vmp"] == pytest.approx(height * volume, rel=0.03)
+    low = curve[8 * curve.size // 10 :]
+    assert found["Vvv"] == pytest.approx(height * (low[0] - low).sum() / curve.size, rel=0.03)
+    assert profile["Rsm"] == pytest.approx(values["lengths"][0], rel=1e-3)
+    assert (profile["Rt"], profile["Rc"]) == pytest.approx((2 * height, 2 * height), rel=1e-3)
+
+
 def test_the_rms_height_over_the_nesting_index_is_that_of_the_waves_that_are_kept() -> None:
     """The two waves of 2 µm and 0.5 µm keep 2^-(S/L)² (1 − 2^-(L'/L)²) of their amplitudes L."""
     for index, rms in values_of("surfaces/nesting_indices")["sq"].items():

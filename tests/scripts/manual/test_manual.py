@@ -4,11 +4,13 @@ import hashlib
 from pathlib import Path
 
 import pytest
+from latex2mathml.converter import convert
 
 import roughfilm
 from roughfilm.cli.main import COMMANDS
+from roughfilm.contact.parameters.definitions import AREAL, PROFILE
 from roughfilm.scenes.json_schema import schema_of
-from scripts.manual import commands, interface, kept_examples, scene_keys
+from scripts.manual import commands, interface, kept_examples, parameters, scene_keys
 from scripts.manual.links import broken
 
 
@@ -48,6 +50,17 @@ def test_the_page_of_commands_has_every_command_and_option() -> None:
 def test_the_page_of_the_interface_has_every_name() -> None:
     page = interface.page()
     assert [name for name in roughfilm.__all__ if f"roughfilm.{name}\n" not in page] == ["__version__"]
+
+
+def test_the_page_of_parameters_has_a_formula_for_each() -> None:
+    page = parameters.page()
+    for one in (*AREAL.values(), *PROFILE.values()):
+        row = next(line for line in page.splitlines() if line.startswith(f"| {one.name} |"))
+        assert row.count(" | ") == 5, row
+        formula = convert(row.split("$")[1])
+        assert formula.startswith("<math")
+        assert "\\" not in formula
+    assert "not comparable between laboratories" in page
 
 
 def test_a_link_that_leads_nowhere_is_named(tmp_path: Path) -> None:
