@@ -1,6 +1,7 @@
 """The options of a command checked against its scene."""
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.seal.scene import Seal
 from roughfilm.terminal.ranges import loads_of
@@ -10,6 +11,16 @@ def seal_of(scene: Scene) -> Seal:
     """The scene, if it is a seal; InputError otherwise."""
     if not isinstance(scene, Seal):
         raise InputError(f"scene.kind: got {scene.kind!r}; leakage takes scenes of kind 'seal'")
+    return scene
+
+
+def bearing_of(scene: Scene) -> Bearing:
+    """The scene, if it is a bearing; InputError otherwise."""
+    if not isinstance(scene, Bearing):
+        raise InputError(
+            f"scene.kind: got {scene.kind!r}; curves over speed are those of a bearing "
+            "(scripts/examples/scenes/rough_washer.toml)"
+        )
     return scene
 
 
