@@ -50,8 +50,8 @@ from roughfilm.terminal.console import (
 )
 from roughfilm.terminal.output_file import alone, refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
+from roughfilm.words.average import rounded
 from roughfilm.words.numbers import finite
-from roughfilm.words.windows import rounded
 
 EXAMPLES = (
     "roughfilm factors scripts/examples/surfaces/milled.toml --gap 3um",

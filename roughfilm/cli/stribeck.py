@@ -44,9 +44,9 @@ from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.ranges import loads_of, speeds_of
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.terminal.scenes import bearing_of, refuse_jobs
+from roughfilm.words.average import count_in_words
 from roughfilm.words.numbers import finite
 from roughfilm.words.stribeck import at_own_speed, lift_off, lift_off_scatter, scatter_of, speed_scale
-from roughfilm.words.windows import count_in_words
 
 EXAMPLES = (
     "roughfilm stribeck scripts/examples/scenes/rough_washer.toml --out rough",

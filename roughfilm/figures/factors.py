@@ -13,7 +13,7 @@ from roughfilm.figures.ticks import plain_logarithmic
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flux import flux
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, relative_row, relative_rows
-from roughfilm.words.windows import MOST
+from roughfilm.words.average import MOST
 
 COLOURS = ("#2166ac", "#b2182b", "#e08214")
 GAPS = mpl.colormaps["cividis"].with_extremes(bad="#b2182b")

@@ -12,8 +12,8 @@ from roughfilm.pages.render import render
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flow_factors import Estimated
 from roughfilm.rom.homogenization.table.factor_table import FactorTable
+from roughfilm.words.average import rounded
 from roughfilm.words.numbers import with_error
-from roughfilm.words.windows import rounded
 
 BY_PRESSURE = {"A11": "along x", "A22": "along y", "A12": "crossed"}
 """Names of the pressure flow factors."""

@@ -17,8 +17,8 @@ from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.stribeck import LOAD_TOLERANCE, StribeckCurve, StribeckPoint, curve_film
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.words.average import count_in_words
 from roughfilm.words.stribeck import SpeedScale, lift_off, number_of, own_point, speed_scale
-from roughfilm.words.windows import count_in_words
 
 DRAWN_CONTACT_SHARE = 0.3
 """The first film drawn is the one whose asperities carry nearest to this fraction of the load."""
@@ -148,4 +148,4 @@ def _closed(values: Array) -> Array:
 
 
 def _row(point: StribeckPoint, columns: Sequence[tuple[str, str, str, float]]) -> list[str]:
-    return [number_of(point, name, factor) for _, _, name, factor in columns]
+    return [number_of(point, name, factor, named=False) for _, _, name, factor in columns]

@@ -7,9 +7,9 @@ from roughfilm.rom.seal.leakage.series import Row
 from roughfilm.rom.seal.leakage.windows import SealingLoads
 from roughfilm.rom.seal.model import leakage_of
 from roughfilm.rom.seal.scene import Seal
+from roughfilm.words.average import in_words as in_words_of
 from roughfilm.words.numbers import share
 from roughfilm.words.scales import Scale, scale_for
-from roughfilm.words.windows import in_words as in_words_of
 
 WORDS = {
     "direct_x": "single period between reservoirs, x",

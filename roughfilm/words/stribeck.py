@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.words.average import rounded
 from roughfilm.words.numbers import with_error
-from roughfilm.words.windows import rounded
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,14 +43,14 @@ def own_point(scene: Bearing, curve: StribeckCurve) -> StribeckPoint | None:
     return next((point for point in curve.points if math.isclose(point.speed, speed, rel_tol=1e-9)), None)
 
 
-def number_of(point: StribeckPoint, name: str, factor: float = 1.0) -> str:
+def number_of(point: StribeckPoint, name: str, factor: float = 1.0, *, named: bool = True) -> str:
     """A number of a point times a factor, with its uncertainty, which may be unknown.
 
-    The scatter of a mean over windows, which may be unknown too, stands behind it.
+    The scatter of a mean over windows, which may be unknown too, stands behind it and, if ``named``, what it is.
     """
     text = with_error(factor * getattr(point, name), factor * point.uncertainty.get(name, math.inf))
     if point.scatter:
-        text += f" ± {scatter_of(point, name, factor)} (windows)"
+        text += f" ± {scatter_of(point, name, factor)}" + (" (windows)" if named else "")
     return text.replace("-", "−")
 
 

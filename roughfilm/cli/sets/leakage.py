@@ -23,10 +23,10 @@ from roughfilm.terminal.console import make_directory, progress_bar
 from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.terminal.scenes import requested_loads, seal_of
+from roughfilm.words.average import HEADS, cells_of, count_in_words, in_words
 from roughfilm.words.leakage import WORDS, sealing_in_words
 from roughfilm.words.numbers import digits, finite_entries, share
 from roughfilm.words.scales import Scale, scale_for
-from roughfilm.words.windows import HEADS, cells_of, count_in_words, in_words
 
 SOURCES = ("Sahlin 2008, Paper F", "10.1016/S0043-1648(99)00113-1", "10.1016/j.triboint.2006.02.069")
 

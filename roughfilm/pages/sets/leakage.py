@@ -9,10 +9,10 @@ from roughfilm.pages.render import render
 from roughfilm.rom.seal.leakage.windows import SealOfWindows
 from roughfilm.rom.seal.model import leakage_of
 from roughfilm.rom.seal.scene import Seal
+from roughfilm.words.average import HEADS, cells_of, count_in_words
 from roughfilm.words.leakage import sealing_in_words
 from roughfilm.words.numbers import digits
 from roughfilm.words.scales import Scale, scale_for
-from roughfilm.words.windows import HEADS, cells_of, count_in_words
 
 KINDS = ("direct", "homogenized")
 """The flow through one period between reservoirs, and that of the periodic surface."""
