@@ -77,22 +77,18 @@ def cell_path(number: int) -> str:
 
 
 def save_windows(windows: WindowSet, directory: Path) -> None:
-    """Write a set of windows: its cells that are not there yet, then its list, each completely or not at all.
+    """Write a set of windows: its cells, then its list, each completely or not at all.
 
-    A cell file that exists with other content is replaced.
+    The list of an older set is removed first, and cells of it with higher numbers last, so that a set is never mixed.
 
     Raises
     ------
     InputError
         If the directory cannot be written, or holds other files under these names.
     """
+    (directory / LIST).unlink(missing_ok=True)
     for number, cell in enumerate(windows.cells):
         save_surface(cell, directory / cell_path(number))
-    write_list(windows, directory)
-
-
-def write_list(windows: WindowSet, directory: Path) -> None:
-    """Write the list of a set whose cells are written already; raises as `save_windows`."""
     write_json(
         {
             FIRST_KEY: dict(windows.source),
@@ -104,11 +100,25 @@ def write_list(windows: WindowSet, directory: Path) -> None:
         },
         directory / LIST,
     )
+    for path in (directory / CELLS).glob("[0-9][0-9][0-9][0-9]*.h5"):
+        if path.stem.isdecimal() and int(path.stem) > len(windows.cells):
+            path.unlink(missing_ok=True)
 
 
 def is_window_set(directory: Path) -> bool:
     """Whether a path is a directory with a list of windows."""
     return (directory / LIST).is_file()
+
+
+def stored_list(directory: Path) -> ListEntries | None:
+    """The list of a set, without its cells; None if there is none, or it is damaged."""
+    path = directory / LIST
+    if not path.is_file():
+        return None
+    try:
+        return from_json(read_bytes(path, MAX_BYTES, REMEDY), ListEntries)
+    except (ValueError, InputError):
+        return None
 
 
 def read_windows(directory: Path) -> WindowSet:

@@ -4,13 +4,13 @@ import platform
 import signal
 import threading
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError, Executor, Future
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from queue import Empty, SimpleQueue
 from signal import SIGINT, SIGTERM
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 from roughfilm.batch.jobs import Failure, Job, failure_of
 from roughfilm.contact.foundation.errors import UnavailableError
@@ -38,6 +38,9 @@ ONE_AT_A_TIME = threading.Lock()
 """Held while jobs run: a worker of dask may have several threads, but models and CPU times are those of a process."""
 
 GONE = "the scheduler is gone; what is stored stays, start again"
+
+QuestionT = TypeVar("QuestionT")
+AnswerT = TypeVar("AnswerT")
 
 Question = tuple[Scene, str, int | None, str | None, str]
 """A job in the form that workers receive: scene, name of the model, resolution, scheme, and the programs that the model
@@ -83,19 +86,42 @@ def run(jobs: Sequence[Job], workers: Workers) -> Iterator[tuple[Job, Answer]]:
     UnavailableError
         If the scheduler of the workers stops, or all workers are gone.
     """
-    pending: dict[Future[list[Answer]], tuple[list[Job], bool]] = {}
-    finished: SimpleQueue[Future[list[Answer]] | int] = SimpleQueue()
     origin = (code(), versions())
 
-    def send(chunk: list[Job], again: bool) -> None:
+    def send(chunk: list[Job], again: bool) -> Future[list[Answer]]:
         questions = [_question(job) for job in chunk]
-        future = workers.executor(questions[0][-1] if again else None).submit(ask, questions, origin)
+        return workers.executor(questions[0][-1] if again else None).submit(ask, questions, origin)
+
+    return answered(chunks(jobs), send, lost, workers)
+
+
+def answered(
+    chunks: Iterable[list[QuestionT]],
+    send: Callable[[list[QuestionT], bool], Future[list[AnswerT]]],
+    lost: Callable[[BaseException], AnswerT],
+    workers: Workers,
+) -> Iterator[tuple[QuestionT, AnswerT]]:
+    """Send chunks of questions to workers and yield each question with its answer; raises as :func:`run`.
+
+    Parameters
+    ----------
+    chunks : the questions, in the order in which they are sent.
+    send : send(chunk, again) submits a chunk, ``again`` if it failed before; its answers are those to the first
+        questions of the chunk, one at least, and the others are sent again.
+    lost : the answer to a question whose worker raised an error twice.
+    workers : the workers.
+    """
+    pending: dict[Future[list[AnswerT]], tuple[list[QuestionT], bool]] = {}
+    finished: SimpleQueue[Future[list[AnswerT]] | int] = SimpleQueue()
+
+    def submit(chunk: list[QuestionT], again: bool) -> None:
+        future = send(chunk, again)
         pending[future] = (chunk, again)
         future.add_done_callback(finished.put)
 
     with _signals_to(finished):
-        for chunk in chunks(jobs):
-            send(chunk, False)
+        for chunk in chunks:
+            submit(chunk, False)
         while pending:
             try:
                 future = finished.get(timeout=WATCH_S)
@@ -113,12 +139,12 @@ def run(jobs: Sequence[Job], workers: Workers) -> Iterator[tuple[Job, Answer]]:
                 answers = future.result()
                 yield from zip(chunk, answers, strict=False)
                 if rest := chunk[len(answers) :]:
-                    send(rest, again)
+                    submit(rest, again)
             elif again:
-                yield chunk[0], _lost(error)
+                yield chunk[0], lost(error)
             else:
-                for job in chunk:
-                    send([job], True)
+                for question in chunk:
+                    submit([question], True)
 
 
 @contextmanager
@@ -135,7 +161,8 @@ def _signals_to(queue: SimpleQueue[Any]) -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def _lost(error: BaseException) -> Failure:
+def lost(error: BaseException) -> Failure:
+    """The failure of a job whose worker raised an error twice."""
     if isinstance(error, UnavailableError):
         return failure_of(error)
     message = f"its worker died twice ({type(error).__name__}); if memory is short, run fewer jobs at a time"
@@ -169,9 +196,7 @@ def ask(questions: Sequence[Question], origin: tuple[str, dict[str, Any]]) -> li
     Raises UnavailableError if the worker's code or libraries are not those of ``origin``, or its programs are not those
     that the first question needs.
     """
-    host = platform.node()
-    if origin != (code(), versions()):
-        raise UnavailableError(f"{host}: has other code or libraries than the sender; install the same there")
+    host = refuse_other_code(origin)
     answers: list[Answer] = []
     with ONE_AT_A_TIME:
         end = time.monotonic() + 2 * CHUNK_S
@@ -184,6 +209,14 @@ def ask(questions: Sequence[Question], origin: tuple[str, dict[str, Any]]) -> li
                 raise UnavailableError(f"{host}: {name} needs {needs} ({has})")
             answers.append(_answer(scene, Setting(model=model, resolution=resolution, scheme=scheme)))
     return answers
+
+
+def refuse_other_code(origin: tuple[str, dict[str, Any]]) -> str:
+    """The name of this machine; UnavailableError if its code or libraries are not those of ``origin``."""
+    host = platform.node()
+    if origin != (code(), versions()):
+        raise UnavailableError(f"{host}: has other code or libraries than the sender; install the same there")
+    return host
 
 
 def _answer(scene: Scene, setting: Setting) -> Answer:

@@ -3,22 +3,20 @@
 from collections.abc import Iterator
 from contextlib import nullcontext
 from dataclasses import asdict
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from rich.table import Table
 
-from roughfilm.batch.cluster import Cluster, dask
+from roughfilm.batch.cluster import Cluster
 from roughfilm.batch.directory import alone
 from roughfilm.batch.executors import local
 from roughfilm.batch.plan import PLAN
 from roughfilm.batch.progress import BatchProgress, State
 from roughfilm.batch.shown import LISTED, duration, job_counts, print_failures, print_warned, state_table
 from roughfilm.batch.solve import finished, solved_table, tasks_of
-from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.units import to_si
+from roughfilm.batch.where import WAIT, Keys, OnMachines, Scheduler, Wait, Where, cluster_of
 from roughfilm.contact.foundation.writing.kinds import entries_from
 from roughfilm.ladder import models
 from roughfilm.rom.ladder.provenance import code, commit, versions
@@ -43,45 +41,21 @@ EXAMPLES = (
     "roughfilm batch scripts/examples/studies/pocket.toml --out sweep",
 )
 
-MOST_WAIT_S = 30 * 86400
-"""Longest time to wait for workers, s."""
-
-
-class Where(StrEnum):
-    """The machines on which the jobs run."""
-
-    LOCAL = "local"
-    DASK = "dask"
-
 
 def command(
     study: Annotated[Path, typer.Argument(metavar="STUDY", help="The study file (TOML): a scene with lists.")],
     out: OutDirectory,
     jobs: Jobs = None,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Show the jobs and their cost; solve nothing.")] = False,
-    executor: Annotated[Where, typer.Option(help="Run the jobs on this machine, or on a dask cluster.")] = Where.LOCAL,
-    scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="Address of the dask scheduler: tls://HOST:PORT.")
-    ] = None,
-    tls: Annotated[
-        Path | None,
-        typer.Option(metavar="DIR", help="Keys for the scheduler, as 'roughfilm cluster keys DIR' writes them."),
-    ] = None,
-    wait: Annotated[
-        str, typer.Option(metavar="TIME", help="End if the scheduler has no workers for this time.")
-    ] = "10 min",
+    executor: OnMachines = Where.LOCAL,
+    scheduler: Scheduler = None,
+    tls: Keys = None,
+    wait: Wait = WAIT,
     as_json: AsJson = False,
 ) -> None:
     """Solve every case of a study by every model and write table.csv and table.h5."""
     processes = process_count(jobs)
-    limit = _seconds(wait)
-    if executor is Where.DASK and scheduler is None:
-        raise InputError("--executor dask needs --scheduler ADDRESS")
-    if executor is Where.LOCAL and scheduler is not None:
-        raise InputError(f"--scheduler: got {scheduler} with --executor local; add --executor dask")
-    if tls is not None and scheduler is None:
-        raise InputError(f"--tls: got {tls} with --executor {executor}; local takes none")
-    with nullcontext() if scheduler is None else dask(scheduler, wait=limit, tls=tls) as cluster:
+    with cluster_of(executor, scheduler, tls, wait) as cluster:
         read = load_study(study, models() if cluster is None else cluster.models())
         if cluster is not None:
             _say_lacking(cluster)
@@ -105,16 +79,6 @@ def command(
     _show_outcome(read, progress, out, as_json)
     if progress.failures:
         raise typer.Exit(NOT_CONVERGED)
-
-
-def _seconds(wait: str) -> float:
-    try:
-        seconds = to_si(wait, "s")
-    except ValueError as error:
-        raise InputError(f"--wait: {error}") from None
-    if not 0 <= seconds <= MOST_WAIT_S:
-        raise InputError(f"--wait: got {wait!r}; it must be 0 s to {MOST_WAIT_S / 86400:g} d")
-    return seconds
 
 
 def _say_lacking(cluster: Cluster) -> None:

@@ -1,0 +1,268 @@
+"""What the rows of all windows say: scatter, trend with the size, windows needed, and warnings."""
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+import scipy
+
+from roughfilm.contact.foundation.brief import brief
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.windows.scatter import MIN_INDEPENDENT, Scatter, scatter, windows_needed
+from roughfilm.contact.windows.size_trend import SizeTrend, Verdict, growth_of, size_trend
+from roughfilm.windows.asked import Asked
+from roughfilm.windows.plan import DECAY_LENGTHS, Group, Plan
+from roughfilm.windows.quantities import Row
+from roughfilm.windows.run import Rows
+from roughfilm.words.numbers import finite_entries
+
+SIGNED = ("Ssk", "Rsk", "A12", "B2")
+"""Quantities of either sign, whose scatter is not that of their logarithms."""
+
+FEW = 5.0
+"""Effective number of independent windows below which a warning is given."""
+
+DRIFT = 1e-3
+"""Probability of a difference between two halves of a measurement below which they count as different."""
+
+MAX_LACKING = 0.5
+"""Fraction of the windows without a value above which a quantity is left out."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class WindowQuantity:
+    """A quantity over all windows.
+
+    Attributes
+    ----------
+    unit : SI unit; "1" for plain numbers.
+    scatter : of the largest windows.
+    numerical : numerical uncertainty of the mean, the mean of those of the windows; None if one is unknown.
+    trend : with the size of the windows.
+    needed : number of independent windows for the tolerance; None if it is unknown.
+    lacking : number of the largest windows without a value.
+    drift : probability that two halves of the measurement differ this much by chance; NaN if it is unknown.
+    by_size : scatter by the size of the windows, m, the largest first.
+    """
+
+    unit: str
+    scatter: Scatter
+    numerical: float | None
+    trend: SizeTrend
+    needed: int | None
+    lacking: int
+    drift: float
+    by_size: Mapping[float, Scatter]
+
+    __repr__ = brief
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """What the windows of a surface say.
+
+    Attributes
+    ----------
+    name : name of the surface.
+    size : shorter side of the largest windows, m.
+    count : number of the largest windows.
+    independent : effective number of independent ones.
+    headline : name of the quantity that is sought most.
+    quantities : by name, that of the headline first.
+    tolerance : relative tolerance for which ``needed`` counts windows.
+    warnings : sentences.
+    """
+
+    name: str
+    size: float
+    count: int
+    independent: float
+    headline: str
+    quantities: Mapping[str, WindowQuantity]
+    tolerance: float
+    warnings: tuple[str, ...]
+
+    __repr__ = brief
+
+
+def answer_of(plan: Plan, asked: Asked, rows: Rows, tolerance: float) -> Answer:
+    """The answer of all windows.
+
+    Raises
+    ------
+    ConvergenceError
+        If none of the largest windows has an answer.
+    """
+    main, own = plan.groups[0], rows.by_group[0]
+    failures = [row.failure for row in own if row.failure is not None]
+    if len(failures) == len(own):
+        raise ConvergenceError(f"windows: none has an answer; the first: {failures[0].message}")
+    heights = [float(np.mean([cell.heights.std() for cell in group.cells])) for group in plan.groups]
+    growth = growth_of([group.size for group in plan.groups], heights)
+    names = dict.fromkeys([asked.headline, *(name for row in own for name in row.quantities)])
+    quantities = {
+        name: found
+        for name in names
+        if (found := _quantity(name, plan.groups, rows.by_group, growth, tolerance)) is not None
+    }
+    answer = Answer(
+        name=plan.name,
+        size=main.size,
+        count=len(main.cells),
+        independent=main.independent,
+        headline=asked.headline if asked.headline in quantities else next(iter(quantities)),
+        quantities=quantities,
+        tolerance=tolerance,
+        warnings=(),
+    )
+    return replace(answer, warnings=tuple(_warnings(plan, rows, answer)))
+
+
+def _quantity(
+    name: str, groups: Sequence[Group], rows: Sequence[Sequence[Row]], growth: float, tolerance: float
+) -> WindowQuantity | None:
+    by_size = {}
+    for group, own in zip(groups, rows, strict=True):
+        values = [row.quantities[name].value for row in own if name in row.quantities]
+        if len(values) < max(1.0, MAX_LACKING * len(own)):
+            continue
+        worth = min(max(group.independent * len(values) / len(own), 1.0), len(values))
+        by_size[group.size] = scatter(values, worth, name not in SIGNED and min(values) >= 0)
+    if groups[0].size not in by_size:
+        return None
+    main, own = by_size[groups[0].size], rows[0]
+    some = [row.quantities[name] for row in own if name in row.quantities]
+    half = [one.uncertainty for one in some]
+    known = [one for one in half if one is not None and math.isfinite(one)]
+    return WindowQuantity(
+        unit=some[0].unit,
+        scatter=main,
+        numerical=float(np.mean(known)) if len(known) == len(half) else None,
+        trend=size_trend(
+            list(by_size),
+            [one.mean for one in by_size.values()],
+            [one.mean_uncertainty for one in by_size.values()],
+            growth,
+        ),
+        needed=windows_needed(main, tolerance),
+        lacking=len(own) - len(some),
+        drift=_drift(name, groups[0], own, main),
+        by_size=by_size,
+    )
+
+
+def _drift(name: str, group: Group, rows: Sequence[Row], main: Scatter) -> float:
+    """The smaller probability of the difference between the halves of the measurement in x, and in y, by chance.
+
+    The halves have as many independent windows as their part of all; t is that of two samples of equal variance.
+    """
+    if not group.windows or main.independent < 2 * MIN_INDEPENDENT or main.deviation == 0:
+        return math.nan
+    some = [number for number, row in enumerate(rows) if name in row.quantities]
+    values = np.array([rows[number].quantities[name].value for number in some])
+    least = math.nan
+    for axis in (0, 1):
+        places = np.array([group.windows[number].start[axis] for number in some])
+        first = places < np.median(places)
+        if not 0 < first.sum() < len(first):
+            continue
+        parts = [main.independent * part.mean() for part in (first, ~first)]
+        if min(parts) < 2:
+            continue
+        t = abs(values[first].mean() - values[~first].mean()) / (main.deviation * math.sqrt(sum(1 / n for n in parts)))
+        by_chance = 2 * float(scipy.special.stdtr(sum(parts) - 2, -t))
+        least = by_chance if math.isnan(least) else min(least, by_chance)
+    return least
+
+
+def _warnings(plan: Plan, rows: Rows, answer: Answer) -> Iterator[str]:
+    main, own = plan.groups[0], rows.by_group[0]
+    yield from plan.warnings
+    sal, (nx, ny) = plan.decay[0], main.cells[0].shape
+    if main.size < DECAY_LENGTHS * sal:
+        yield (
+            f"a window of {1e6 * main.size:.4g} µm ({nx} x {ny} points) is {main.size / sal:.2g} decay lengths Sal "
+            f"long; below {DECAY_LENGTHS:g} it does not represent the surface; take larger ones or measure more"
+        )
+    if answer.independent < answer.count / 2:
+        yield (
+            f"the {answer.count} windows overlap, or lie along one lay: they are worth {answer.independent:.2g} "
+            "independent ones; more of them add little, measure a larger area or take smaller windows"
+        )
+    if answer.independent < FEW:
+        yield (
+            f"{answer.independent:.2g} independent windows are few: the scatter itself is uncertain"
+            + (", and no interval is given" if answer.independent < MIN_INDEPENDENT else "")
+            + f"; take windows of which {FEW:g} or more fit, or measure more places"
+        )
+    growth = answer.quantities[answer.headline].trend.growth
+    if answer.quantities[answer.headline].trend.verdict is Verdict.NO_PLATEAU and math.isfinite(growth):
+        yield (
+            f"Sq grows as L^{growth:.2g} with the side L of the windows: the spectrum does not roll off within them, "
+            "so that no value of the whole surface is known; larger windows have larger values"
+        )
+    drifting = [name for name, one in answer.quantities.items() if one.drift < DRIFT]
+    if drifting:
+        yield (
+            f"two halves of the measurement differ in {', '.join(drifting)} by more than the scatter of their windows: "
+            "the surface is not the same everywhere, or its form is not removed"
+        )
+    failed = [row.failure for group in rows.by_group for row in group if row.failure is not None]
+    if failed:
+        total = sum(map(len, rows.by_group))
+        yield f"{len(failed)} of {total} windows have no answer and are left out; the first: {failed[0].message}"
+    for name, one in answer.quantities.items():
+        if one.lacking > len(own) - sum(bool(row.quantities) for row in own):
+            yield f"{one.lacking} of {answer.count} windows have no {name}, which is that of the others"
+    counts = Counter(_without_numbers(sentence) for row in own for sentence in set(row.warnings))
+    first = {_without_numbers(sentence): sentence for row in reversed(own) for sentence in row.warnings}
+    for key, count in counts.most_common():
+        yield f"{count} of {answer.count} windows: {first[key]}"
+
+
+def _without_numbers(sentence: str) -> str:
+    """A sentence without its numbers, so that those of different windows are counted together."""
+    return "".join(" " if one.isdigit() or one in ".-" else one for one in sentence)
+
+
+def entries_of(answer: Answer) -> dict[str, Any]:
+    """The answer as entries that JSON can hold."""
+    entries: dict[str, Any] = finite_entries(
+        {
+            "surface": answer.name,
+            "headline": answer.headline,
+            "size": answer.size,
+            "windows": answer.count,
+            "independent": answer.independent,
+            "tolerance": answer.tolerance,
+            "quantities": {name: _quantity_entries(one) for name, one in answer.quantities.items()},
+        }
+    )
+    return entries
+
+
+def _quantity_entries(one: WindowQuantity) -> dict[str, Any]:
+    trend = {name: _listed(value) for name, value in asdict(one.trend).items()}
+    return {
+        "value": one.scatter.mean,
+        "unit": one.unit,
+        "uncertainty": one.scatter.mean_uncertainty,
+        "numerical_uncertainty": one.numerical,
+        "windows_needed": one.needed,
+        "windows_lacking": one.lacking,
+        "drift_by_chance": one.drift,
+        "scatter": _scatter_entries(one.scatter),
+        "trend": trend,
+        "by_size": [{"size": size, **_scatter_entries(found)} for size, found in one.by_size.items()],
+    }
+
+
+def _scatter_entries(found: Scatter) -> dict[str, Any]:
+    return {name: _listed(value) for name, value in vars(found).items()} | {"mean_uncertainty": found.mean_uncertainty}
+
+
+def _listed(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray) else value

@@ -1,0 +1,287 @@
+"""The windows to examine: places on a measurement, or seeds of a description, of several sizes."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import with_unit
+from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
+from roughfilm.contact.preparation.prepare import Levelled, cell_of, level
+from roughfilm.contact.preparation.recipe import Recipe, recipe_entries
+from roughfilm.contact.preparation.window import Window
+from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.synthetic.description import (
+    Description,
+    description_entries,
+    make,
+    read_description,
+    read_entries,
+)
+from roughfilm.contact.windows.places import MAX_WINDOWS, independent_windows, window_places
+from roughfilm.rom.ladder.model import Progress
+
+COUNT = 16
+"""Default number of windows of each size."""
+
+PIXEL_STEP = 8
+"""The pixels along a side of a window are a multiple of this, so that coarser grids estimate its numerical error."""
+
+MIN_PIXELS = 32
+"""Smallest number of pixels along a side of a window."""
+
+SIZE_RATIOS = (2, 4)
+"""Ratios of the size of the largest windows to the default further sizes."""
+
+DECAY_LENGTHS = 5.0
+"""Side of a window over the decay length Sal below which a warning is given."""
+
+USUAL: Mapping[str, Any] = {"grid": {"points": "kept"}}
+"""Entries of the recipe of windows without one: they keep the pixels of the measurement."""
+
+SEEDS_APART = 100_000
+"""Difference of the first seeds of two sizes."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Group:
+    """The windows of one size.
+
+    Attributes
+    ----------
+    size : shorter side, m.
+    cells : periodic cells.
+    windows : their places; empty for seeds.
+    seeds : their seeds; empty for places.
+    independent : effective number of independent windows.
+    """
+
+    size: float
+    cells: tuple[Surface, ...]
+    windows: tuple[Window, ...] = ()
+    seeds: tuple[int, ...] = ()
+    independent: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """All windows of one surface.
+
+    Attributes
+    ----------
+    name : name of the file.
+    groups : windows by size, the largest first.
+    source : origin of the surface, and the recipe or description, as entries that JSON can hold.
+    surface : the levelled measurement; None for a description.
+    decay : shortest and longest decay length of its autocorrelation, m; those of the first cell for a description.
+    warnings : sentences about the windows.
+    """
+
+    name: str
+    groups: tuple[Group, ...]
+    source: Mapping[str, Any]
+    surface: Surface | None
+    decay: tuple[float, float]
+    warnings: tuple[str, ...]
+
+
+def planned(
+    given: Surface | Path,
+    recipe: Recipe,
+    *,
+    count: int,
+    size: float | None,
+    sizes: Sequence[float],
+    name: str,
+    progress: Progress,
+) -> Plan:
+    """Choose the windows of a measured surface or of a described one, and prepare their cells.
+
+    Parameters
+    ----------
+    given : measured surface, or the TOML file of a description.
+    recipe : recipe of the preparation; not used for a description, whose cells are periodic.
+    count : number of windows of each size.
+    size : side of the largest windows, m; by default five decay lengths Sal or, if it is more, the side of the largest
+        squares of which ``count`` fit, up to half of the measurement; for a description its size.
+    sizes : further sides, m; by default a half and a quarter of ``size``.
+    name : name for people.
+    progress : called with the done fraction and a few words.
+
+    Raises
+    ------
+    InputError
+        If a size, the count or the recipe is out of range, or a window cannot be prepared.
+    """
+    if not 1 <= count <= MAX_WINDOWS:
+        raise InputError(f"windows: got {count}; take 1 to {MAX_WINDOWS}")
+    wrong = [one for one in (size, *sizes) if one is not None and not (0 < one < math.inf)]
+    if wrong:
+        raise InputError(f"size: got {wrong[0]!r} m; give lengths above 0")
+    if isinstance(given, Path):
+        return _of_description(read_description(given), count, size, sizes, name, progress)
+    return _of_measurement(given, recipe, count, size, sizes, name, progress)
+
+
+def _of_measurement(
+    surface: Surface,
+    recipe: Recipe,
+    count: int,
+    size: float | None,
+    sizes: Sequence[float],
+    name: str,
+    progress: Progress,
+) -> Plan:
+    if recipe.window is not None:
+        raise InputError("recipe: window: is set; the windows are chosen here, leave it out and give --size")
+    progress(0.0, "levelling the measurement")
+    levelled = level(surface, recipe)
+    clipped = levelled.clipped
+    found = decay_lengths(autocorrelation(clipped), clipped.spacing)
+    whole = cell_of(levelled, recipe, Window(start=(0, 0), shape=surface.shape))
+    recipe = recipe.model_copy(
+        update={"edges": recipe.edges.model_copy(update={"direction": whole.record["edges"]["direction"]})}
+    )
+    largest = _largest(surface, count, found.shortest) if size is None else size
+    shapes, warnings = _shapes(surface, largest, sizes)
+    groups, done = [], 0
+    for shape in shapes:
+        places = window_places(surface.shape, shape, count)
+        cells = []
+        for window in places:
+            progress(done / (count * len(shapes)), f"preparing window {done + 1} of {count * len(shapes)}")
+            cells.append(_cell(levelled, recipe, window))
+            done += 1
+        groups.append(
+            Group(
+                size=min(n * step for n, step in zip(shape, surface.spacing, strict=True)),
+                cells=tuple(cells),
+                windows=places,
+                independent=independent_windows(places, clipped),
+            )
+        )
+    return Plan(
+        name=name,
+        groups=tuple(groups),
+        source={"prepared_from": dict(surface.source), "recipe": recipe_entries(recipe)},
+        surface=clipped,
+        decay=(found.shortest, found.longest),
+        warnings=tuple(warnings),
+    )
+
+
+def _cell(levelled: Levelled, recipe: Recipe, window: Window) -> Surface:
+    try:
+        return cell_of(levelled, recipe, window).surface
+    except InputError as error:
+        (i, j), (nx, ny) = window.start, window.shape
+        raise InputError(f"window of {nx} x {ny} pixels at pixel {i}, {j}: {error}") from None
+
+
+def _largest(surface: Surface, count: int, sal: float) -> float:
+    """The default side of the largest windows, m: five decay lengths, or more if ``count`` such squares fit.
+
+    It is at most half of the shorter side of the measurement, so that four windows fit without overlap.
+    """
+    length, width = surface.size
+    low, high = 0.0, min(length, width)
+    for _ in range(60):
+        side = 0.5 * (low + high)
+        low, high = (side, high) if (length // side) * (width // side) >= count else (low, side)
+    least = MIN_PIXELS * max(surface.spacing)
+    return max(min(max(low, DECAY_LENGTHS * sal), 0.5 * min(surface.size)), min(least, *surface.size))
+
+
+def _shapes(surface: Surface, largest: float, sizes: Sequence[float]) -> tuple[list[tuple[int, int]], list[str]]:
+    """The numbers of pixels of the windows of each size, the largest first, and warnings about sizes left out."""
+    side = min(surface.size)
+    if largest > side * (1 + 1e-9):
+        raise InputError(f"size: got {_micro(largest)}; the measurement is {_micro(side)} wide, take less")
+    wanted = [largest, *(sizes or [largest / ratio for ratio in SIZE_RATIOS])]
+    shapes: list[tuple[int, int]] = []
+    warnings = []
+    for length in sorted(set(wanted), reverse=True):
+        nx, ny = (
+            min(PIXEL_STEP * round(length / step / PIXEL_STEP), most // PIXEL_STEP * PIXEL_STEP)
+            for step, most in zip(surface.spacing, surface.shape, strict=True)
+        )
+        if length > side * (1 + 1e-9):
+            raise InputError(f"sizes: got {_micro(length)}; the measurement is {_micro(side)} wide, take less")
+        if min(nx, ny) < MIN_PIXELS:
+            if length == largest or sizes:
+                raise InputError(
+                    f"size: got {_micro(length)}, which is {min(nx, ny)} pixels; a window has at least {MIN_PIXELS} "
+                    "along each side"
+                )
+            warnings.append(f"windows of {_micro(length)} are left out: fewer than {MIN_PIXELS} pixels along a side")
+        elif (nx, ny) not in shapes:
+            shapes.append((nx, ny))
+    return shapes, warnings
+
+
+def _of_description(
+    description: Description, count: int, size: float | None, sizes: Sequence[float], name: str, progress: Progress
+) -> Plan:
+    entries = description_entries(description)
+    if "seed" not in entries:
+        raise InputError(f"{name}: kind: got {entries['kind']!r}, which has no seed; all its windows are the same")
+    shorter = min(description.size)
+    largest = shorter if size is None else size
+    wanted = sorted({largest, *(sizes or [largest / ratio for ratio in SIZE_RATIOS])}, reverse=True)
+    points = [_points(description, length / shorter) for length in wanted]
+    warnings = []
+    groups, done = [], 0
+    for number, (length, shape) in enumerate(zip(wanted, points, strict=True)):
+        if min(shape) < MIN_PIXELS:
+            if length == largest or sizes:
+                raise InputError(f"size: got {_micro(length)}, which is {min(shape)} points; give {MIN_PIXELS} or more")
+            continue
+        seeds = [entries["seed"] + SEEDS_APART * number + one for one in range(count)]
+        cells = []
+        try:
+            for seed in seeds:
+                progress(done / (count * len(wanted)), f"making surface {done + 1} of {count * len(wanted)}")
+                cells.append(make(read_entries(_resized(entries, description, shape, seed))))
+                done += 1
+        except InputError as error:
+            if length == largest or sizes:
+                raise InputError(f"{name}, at a size of {_micro(length)}: {error}") from None
+            warnings.append(f"surfaces of {_micro(length)} are left out: {error}")
+            continue
+        groups.append(Group(size=min(cells[0].size), cells=tuple(cells), seeds=tuple(seeds), independent=float(count)))
+    if entries.get("amplitudes") == "fixed":
+        warnings.append(
+            'amplitudes = "fixed" gives every seed the same spectrum, so that seeds scatter less than windows of one '
+            'surface do; "random" lets them scatter as windows'
+        )
+    first = groups[0].cells[0]
+    found = decay_lengths(autocorrelation(first), first.spacing)
+    return Plan(
+        name=name,
+        groups=tuple(groups),
+        source={"description": entries},
+        surface=None,
+        decay=(found.shortest, found.longest),
+        warnings=tuple(warnings),
+    )
+
+
+def _points(description: Description, ratio: float) -> tuple[int, int]:
+    nx, ny = (PIXEL_STEP * max(round(n * ratio / PIXEL_STEP), 1) for n in description.points)
+    return (nx, ny) if ratio != 1 else description.points
+
+
+def _resized(entries: Mapping[str, Any], description: Description, shape: tuple[int, int], seed: int) -> dict[str, Any]:
+    """The entries of a description with another number of points of the same spacing, and another seed."""
+    lengths = [
+        with_unit(length * n / points, "m")
+        for length, n, points in zip(description.size, shape, description.points, strict=True)
+    ]
+    changed = {"seed": seed, "points": list(shape)}
+    return {**entries, **changed, **({} if shape == tuple(description.points) else {"size": lengths})}
+
+
+def _micro(length: float) -> str:
+    return f"{1e6 * length:.4g} µm"
