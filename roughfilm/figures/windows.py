@@ -7,10 +7,11 @@ import numpy as np
 from matplotlib.patches import Rectangle
 
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.contact.windows.scatter import scatter
+from roughfilm.contact.windows.scatter import Scatter, scatter
 from roughfilm.figures.base import new_figure, surface_map, svg
-from roughfilm.windows.answer import WindowQuantity
-from roughfilm.windows.plan import Group
+from roughfilm.figures.ticks import plain_logarithmic
+from roughfilm.sampling.answer import WindowQuantity
+from roughfilm.sampling.plan import Group
 from roughfilm.words.scales import Scale
 
 DOTS, MEANS, LIMIT = "#4a7fb5", "#b2182b", "#1a7f37"
@@ -84,16 +85,13 @@ def values(shown: Shown) -> str:
         for number, found in enumerate(one.by_size.values()):
             jitter = number + rng.uniform(-0.2, 0.2, found.values.size)
             axes.plot(found.values / scale.factor, jitter, "o", color=DOTS, markersize=4, alpha=0.6)
-            mean = found.mean / scale.factor
-            if found.mean_interval is None:
-                axes.plot(mean, number, "D", color=MEANS, markersize=6)
-                continue
-            bars = [[mean - found.mean_interval[0] / scale.factor], [found.mean_interval[1] / scale.factor - mean]]
-            axes.errorbar(mean, number, xerr=bars, fmt="D", color=MEANS, markersize=6, capsize=4)
+            bars = np.array([_bars(found, scale)]).T
+            axes.errorbar(found.mean / scale.factor, number, xerr=bars, fmt="D", color=MEANS, markersize=6, capsize=4)
         axes.set_yticks(range(len(one.by_size)), [f"{1e6 * size:.4g}" for size in one.by_size])
         low, high = largest.interval or (0.0, 0.0)
         if 0 < MOST_LINEAR * low < high:
             axes.set_xscale("log")
+            plain_logarithmic(axes.xaxis)
         axes.set(xlabel=scale.label(title), ylabel="window, µm", ylim=(len(one.by_size) - 0.5, -0.5))
     _hide_rest(panels, len(shown))
     return svg(figure)
@@ -105,8 +103,8 @@ def over_size(shown: Shown) -> str:
     for axes, (title, one, scale) in zip(panels.flat, shown.values(), strict=False):
         inverse = [1e-3 / size for size in one.by_size]
         means = [found.mean / scale.factor for found in one.by_size.values()]
-        half = [(found.mean_uncertainty or np.nan) / scale.factor for found in one.by_size.values()]
-        axes.errorbar(inverse, means, half, fmt="D", color=MEANS, capsize=4, label="mean over windows")
+        bars = np.array([_bars(found, scale) for found in one.by_size.values()]).T
+        axes.errorbar(inverse, means, bars, fmt="D", color=MEANS, capsize=4, label="mean over windows")
         trend = one.trend
         if trend.limit is not None and trend.limit_uncertainty is not None:
             ends = np.array([0.0, max(inverse)])
@@ -124,6 +122,14 @@ def over_size(shown: Shown) -> str:
     _hide_rest(panels, len(shown))
     _legend(figure, panels)
     return svg(figure)
+
+
+def _bars(found: Scatter, scale: Scale) -> tuple[float, float]:
+    """The lengths of the 95 % interval below and above the mean; NaN where it is unknown."""
+    if found.mean_interval is None:
+        return np.nan, np.nan
+    low, high = found.mean_interval
+    return (found.mean - low) / scale.factor, (high - found.mean) / scale.factor
 
 
 def over_number(shown: Shown) -> str:
@@ -146,10 +152,10 @@ def over_number(shown: Shown) -> str:
         known = np.isfinite(high)
         if known.any():
             last = np.flatnonzero(known)[-1]
-            span = 2.5 * max(high[last] - means[last], means[last] - low[last])
-            middle = means[-1]
-            bottom, top = (min(min(means), middle - span), max(max(means), middle + span))
-            axes.set_ylim(bottom - 0.05 * (top - bottom or 1), top + 0.05 * (top - bottom or 1))
+            bottom = min(*means, means[-1] - 2.5 * (means[-1] - low[last]))
+            top = max(*means, means[-1] + 2.5 * (high[last] - means[-1]))
+            room = 0.05 * (top - bottom or 1.0)
+            axes.set_ylim(max(bottom - room, 0.0) if found.positive else bottom - room, top + room)
         axes.set(xlabel="number of windows", ylabel=scale.label(title))
     _hide_rest(panels, len(shown))
     _legend(figure, panels)

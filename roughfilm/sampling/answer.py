@@ -3,21 +3,20 @@
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
 
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.windows.scatter import MIN_INDEPENDENT, Scatter, scatter, windows_needed
 from roughfilm.contact.windows.size_trend import SizeTrend, Verdict, growth_of, size_trend
-from roughfilm.windows.asked import Asked
-from roughfilm.windows.plan import DECAY_LENGTHS, Group, Plan
-from roughfilm.windows.quantities import Row
-from roughfilm.windows.run import Rows
-from roughfilm.words.numbers import finite_entries
+from roughfilm.sampling.asked import Asked
+from roughfilm.sampling.plan import DECAY_LENGTHS, Group, Plan
+from roughfilm.sampling.quantities import Row
+from roughfilm.sampling.run import Rows
 
 SIGNED = ("Ssk", "Rsk", "A12", "B2")
 """Quantities of either sign, whose scatter is not that of their logarithms."""
@@ -73,6 +72,7 @@ class Answer:
     headline : name of the quantity that is sought most.
     quantities : by name, that of the headline first.
     tolerance : relative tolerance for which ``needed`` counts windows.
+    cells : periodic cells of the largest windows.
     warnings : sentences.
     """
 
@@ -83,6 +83,7 @@ class Answer:
     headline: str
     quantities: Mapping[str, WindowQuantity]
     tolerance: float
+    cells: tuple[Surface, ...]
     warnings: tuple[str, ...]
 
     __repr__ = brief
@@ -116,6 +117,7 @@ def answer_of(plan: Plan, asked: Asked, rows: Rows, tolerance: float) -> Answer:
         headline=asked.headline if asked.headline in quantities else next(iter(quantities)),
         quantities=quantities,
         tolerance=tolerance,
+        cells=main.cells,
         warnings=(),
     )
     return replace(answer, warnings=tuple(_warnings(plan, rows, answer)))
@@ -226,43 +228,3 @@ def _warnings(plan: Plan, rows: Rows, answer: Answer) -> Iterator[str]:
 def _without_numbers(sentence: str) -> str:
     """A sentence without its numbers, so that those of different windows are counted together."""
     return "".join(" " if one.isdigit() or one in ".-" else one for one in sentence)
-
-
-def entries_of(answer: Answer) -> dict[str, Any]:
-    """The answer as entries that JSON can hold."""
-    entries: dict[str, Any] = finite_entries(
-        {
-            "surface": answer.name,
-            "headline": answer.headline,
-            "size": answer.size,
-            "windows": answer.count,
-            "independent": answer.independent,
-            "tolerance": answer.tolerance,
-            "quantities": {name: _quantity_entries(one) for name, one in answer.quantities.items()},
-        }
-    )
-    return entries
-
-
-def _quantity_entries(one: WindowQuantity) -> dict[str, Any]:
-    trend = {name: _listed(value) for name, value in asdict(one.trend).items()}
-    return {
-        "value": one.scatter.mean,
-        "unit": one.unit,
-        "uncertainty": one.scatter.mean_uncertainty,
-        "numerical_uncertainty": one.numerical,
-        "windows_needed": one.needed,
-        "windows_lacking": one.lacking,
-        "drift_by_chance": one.drift,
-        "scatter": _scatter_entries(one.scatter),
-        "trend": trend,
-        "by_size": [{"size": size, **_scatter_entries(found)} for size, found in one.by_size.items()],
-    }
-
-
-def _scatter_entries(found: Scatter) -> dict[str, Any]:
-    return {name: _listed(value) for name, value in vars(found).items()} | {"mean_uncertainty": found.mean_uncertainty}
-
-
-def _listed(value: Any) -> Any:
-    return value.tolist() if isinstance(value, np.ndarray) else value
