@@ -12,6 +12,7 @@ from roughfilm.pages.render import render
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flow_factors import Estimated
 from roughfilm.rom.homogenization.table.factor_table import FactorTable
+from roughfilm.words.average import rounded
 from roughfilm.words.numbers import with_error
 
 BY_PRESSURE = {"A11": "along x", "A22": "along y", "A12": "crossed"}
@@ -62,6 +63,7 @@ def write_page(
         path,
         name=name,
         entries=entries,
+        windows=entries.get("windows", {}).get("count", 0),
         asked=f"{1e6 * asked['mean_gap']:.4g}",
         cards={words: _factor(asked, factor) for factor, words in CARDS.items()},
         touching=asked["contact"],
@@ -93,8 +95,9 @@ def _row(point: Mapping[str, Any], names: Iterable[str], *, pressed: bool) -> li
 
 
 def _factor(point: Mapping[str, Any], name: str) -> str:
-    """A factor with its uncertainty, or "sealed"."""
+    """A factor with its uncertainty, and behind it the scatter of a mean over windows; or "sealed"."""
     if (name == "A11" and point["sealed_x"]) or (name == "A22" and point["sealed_y"]):
         return "sealed"
     value, uncertainty = point[name]["value"], point[name]["uncertainty"]
-    return with_error(value, math.inf if uncertainty is None else uncertainty).replace("-", "−")
+    text = with_error(value, math.inf if uncertainty is None else uncertainty).replace("-", "−")
+    return f"{text} ± {rounded(point[name]['scatter'], value)}" if "scatter" in point[name] else text
