@@ -170,12 +170,12 @@ def _of_measurement(
 
 
 def _same_edges(levelled: Levelled, recipe: Recipe, smallest: tuple[int, int]) -> Recipe:
-    """The recipe with the direction that suits the whole measurement, and the width of the joint of the smallest window.
+    """The recipe with the joint direction of the whole measurement, and the joint width of the smallest window.
 
     The default width grows with the window, so that the joint would take the same part of a window of any size, and an
     extrapolation to large windows would keep its effect.
     """
-    shape = levelled.clipped.shape
+    shape = levelled.filled.shape
     direction = cell_of(levelled, recipe, Window(start=(0, 0), shape=shape)).record["edges"]["direction"]
     width = min(cell_of(levelled, recipe, Window(start=(0, 0), shape=smallest)).record["edges"]["width"])
     edges = recipe.edges.model_copy(update={"direction": direction, "width": recipe.edges.width or width})
