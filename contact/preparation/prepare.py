@@ -22,6 +22,7 @@ from roughfilm.contact.preparation.smoothing import smooth
 from roughfilm.contact.preparation.spikes import Spikes, find_spikes
 from roughfilm.contact.preparation.window import Window, best_window, cut_window
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 
 EDGE_WIDTH = 1 / 2
@@ -113,6 +114,7 @@ class Levelled:
     trusted : ``measured`` after clipping and the filters, with spikes and rims marked as invalid too.
     filled : ``trusted`` with invalid points filled.
     record : data and changes of each step, as entries that JSON can hold.
+    warnings : sentences on units that may be wrong.
     """
 
     original: Surface
@@ -120,6 +122,7 @@ class Levelled:
     trusted: Surface
     filled: Surface
     record: Mapping[str, Any]
+    warnings: tuple[str, ...]
 
 
 def level(surface: Surface, recipe: Recipe) -> Levelled:
@@ -146,7 +149,14 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
         "filled": {"points": int(trusted.invalid.sum()), "fraction": float(trusted.invalid.mean())},
         "scale": {"form": recipe.form, "s_filter": recipe.s_filter, "l_filter": recipe.l_filter},
     }
-    return Levelled(original=surface, measured=measured, trusted=trusted, filled=filled, record=record)
+    return Levelled(
+        original=surface,
+        measured=measured,
+        trusted=trusted,
+        filled=filled,
+        record=record,
+        warnings=implausible(trusted),
+    )
 
 
 def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) -> Prepared:
@@ -187,7 +197,11 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
         joined=joined,
         surface=smoothed.with_heights(smoothed.heights, source=source),
         record=record,
-        warnings=(*nesting_warnings(surface, recipe.s_filter, recipe.l_filter), *_warnings(record)),
+        warnings=(
+            *levelled.warnings,
+            *nesting_warnings(surface, recipe.s_filter, recipe.l_filter),
+            *_warnings(record),
+        ),
     )
 
 

@@ -22,6 +22,7 @@ from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
 from roughfilm.contact.read import HeightMap, parse_spacing, periodicity_warnings, read_height_map
+from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.store import load_surface
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING, Surface
 from roughfilm.contact.windows.store import is_window_set
@@ -333,7 +334,7 @@ def _undeformed(path: Path, pressed: Inputs) -> HeightMap:
     """The undeformed surface of a file of contacts."""
     source = {"file": path.name, "settings": dict(pressed.settings)}
     surface = Surface(heights=pressed.heights, spacing=pressed.spacing)
-    warnings = periodicity_warnings(path, surface, measured=False)
+    warnings = (*implausible(surface, path), *periodicity_warnings(path, surface, measured=False))
     return HeightMap(heights=pressed.heights, spacing=pressed.spacing, source=source, warnings=warnings)
 
 
