@@ -50,5 +50,5 @@ def _tables(definitions: Mapping[str, Definition]) -> Iterator[str]:
 
 def _row(one: Definition) -> str:
     equation = one.equation.replace("|", r"\vert ")
-    unit = one.unit if one.group != "volume" else "m³/m²"
+    unit = one.unit.replace("^2", "²") if one.group != "volume" else "m³/m²"
     return f"| {one.name} | {one.meaning} | ${equation}$ | {unit} | {one.standard} | {one.accuracy} |"
