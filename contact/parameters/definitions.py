@@ -19,9 +19,8 @@ GROUPS: Mapping[Group, str] = {
 }
 """Groups of parameters in the order of the tables, with their headings."""
 
-FROM_MEAN = "mean of the points: second order in the spacing, and better on a periodic surface"
 SECOND_ORDER = "second order in the spacing"
-CURVE = "second order in 1/n for a smooth bearing curve of n different heights"
+CURVE = "second order in 1/n"
 SOURCE = "F. Sahlin, Luleå 2008"
 
 
@@ -60,17 +59,23 @@ def _defined(
 
 AREAL: Mapping[str, Definition] = dict(
     (
-        _defined("height", "Sa", "mean absolute height", r"\langle |z| \rangle", "m", "4.2", FROM_MEAN),
-        _defined("height", "Sq", "root mean square height", r"\sqrt{\langle z^2 \rangle}", "m", "4.2", FROM_MEAN),
+        _defined("height", "Sa", "mean absolute height", r"\langle |z| \rangle", "m", "4.2", SECOND_ORDER),
+        _defined("height", "Sq", "root mean square height", r"\sqrt{\langle z^2 \rangle}", "m", "4.2", SECOND_ORDER),
         _defined("height", "Sp", "highest point above the mean", r"\max z", "m", "4.2", SECOND_ORDER),
         _defined("height", "Sv", "deepest point below the mean", r"-\min z", "m", "4.2", SECOND_ORDER),
         _defined("height", "Sz", "from the lowest point to the highest", "S_p + S_v", "m", "4.2", SECOND_ORDER),
         _defined("height", "St", "the same as Sz", "S_z", "m", SOURCE, SECOND_ORDER),
         _defined(
-            "height", "Ssk", "skewness: below 0 for valleys", r"\langle z^3 \rangle / S_q^3", "1", "4.2", FROM_MEAN
+            "height", "Ssk", "skewness: below 0 for valleys", r"\langle z^3 \rangle / S_q^3", "1", "4.2", SECOND_ORDER
         ),
         _defined(
-            "height", "Sku", "kurtosis: 3 for Gaussian heights", r"\langle z^4 \rangle / S_q^4", "1", "4.2", FROM_MEAN
+            "height",
+            "Sku",
+            "kurtosis: 3 for Gaussian heights",
+            r"\langle z^4 \rangle / S_q^4",
+            "1",
+            "4.2",
+            SECOND_ORDER,
         ),
         _defined(
             "functional",
@@ -157,7 +162,7 @@ AREAL: Mapping[str, Definition] = dict(
             r"\min |t|,\; \langle z(x) z(x + t) \rangle = 0.2\, S_q^2",
             "m",
             "4.3",
-            "relative error 10⁻³, 10⁻⁴, 10⁻⁵ at 4, 8, 16 pixels per correlation length",
+            "10⁻³, 10⁻⁴, 10⁻⁵ at 4, 8, 16 pixels per correlation length",
         ),
         _defined(
             "spatial",
@@ -166,7 +171,7 @@ AREAL: Mapping[str, Definition] = dict(
             r"S_{al} / \max |t|,\; \langle z(x) z(x + t) \rangle = 0.2\, S_q^2",
             "1",
             "4.3",
-            "as Sal; an upper bound where the longest length exceeds half the surface",
+            "as Sal",
         ),
         _defined(
             "spatial",
@@ -174,7 +179,7 @@ AREAL: Mapping[str, Definition] = dict(
             "direction of the ridges from x",
             r"90^\circ + \theta,\; \int |\hat z(q, \theta)|^2 q\, dq \text{ greatest}",
             "deg",
-            "4.3 (its angle is that of the wave vector, 90° away)",
+            "4.3",
             "0.1° with a dozen grooves in view",
         ),
         _defined(
@@ -184,7 +189,7 @@ AREAL: Mapping[str, Definition] = dict(
             r"N_\text{peaks} / A",
             "1/m^2",
             "5.8",
-            "exact once each hill is resolved; hills that touch an edge are left out",
+            "none once each hill is resolved",
         ),
         _defined(
             "feature",
@@ -193,7 +198,7 @@ AREAL: Mapping[str, Definition] = dict(
             r"-\tfrac{1}{2} \langle \partial_x^2 z + \partial_y^2 z \rangle_\text{peaks}",
             "1/m",
             "5.8",
-            "second order in the spacing for symmetric peaks, else first order with either sign",
+            "second order for symmetric peaks, else first",
         ),
         _defined(
             "feature",
