@@ -88,11 +88,6 @@ def parameters(surface: Surface) -> dict[str, Quantity]:
     )
 
 
-def bearing_parameters(surface: Surface) -> dict[str, Quantity]:
-    """The parameters Sk, Spk, Svk, m, and Smr1, Smr2 of the bearing curve, a subset of `parameters`."""
-    return _quantities(AREAL, _core("S", bearing_core(descending(surface.heights[surface.valid]))))
-
-
 def profile_parameters(
     heights: ArrayLike, spacing: float, *, sections: int = SECTIONS, profile: Literal["P", "W", "R"] = "R"
 ) -> dict[str, Quantity]:

@@ -31,7 +31,12 @@ class Reading(Part):
 
 
 class Outliers(Part):
-    """Number of histogram bins, and the number of points in the outermost bins that are kept; 0 clips nothing."""
+    """Limit of spikes and rims, number of histogram bins, and number of points in the outermost bins that are kept.
+
+    The limit is in spreads of the heights; 0 finds no spikes. With 0 points nothing is clipped.
+    """
+
+    limit: Annotated[float, Field(ge=0, le=1e6)] = 4.0
 
     bins: Annotated[int, Field(strict=True, ge=1, le=1_000_000)] = 1000
     points: Annotated[int, Field(strict=True, ge=0)] = 10
@@ -97,7 +102,7 @@ class Recipe(Part):
 
 AS_IT_IS: Mapping[str, Any] = {
     "form": "none",
-    "outliers": {"points": 0},
+    "outliers": {"limit": 0.0, "points": 0},
     "grid": {"points": "kept"},
     "edges": {"direction": "none"},
     "smoothing": 1,

@@ -15,7 +15,7 @@ from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.parameters.definitions import AREAL
-from roughfilm.contact.parameters.roughness_parameters import bearing_parameters, parameters
+from roughfilm.contact.parameters.roughness_parameters import parameters
 from roughfilm.contact.preparation.prepare import Prepared, prepare
 from roughfilm.contact.preparation.recipe import AS_IT_IS, Reading, Recipe, load_recipe, recipe_entries
 from roughfilm.contact.surfaces.files import read_surface
@@ -36,6 +36,8 @@ STEP_COUNT = 5
 
 OF_THE_CELL = {
     "invalid_fraction": "points without a height",
+    "outlier_fraction": "points of spikes, on rims, or clipped",
+    "filled_fraction": "points that are filled",
     "periodicity_mismatch": f"of opposite edges: good up to {MISMATCH_THRESHOLD:g}",
 }
 """Meanings of the quantities that are no parameters of roughness."""
@@ -118,16 +120,16 @@ def _read(file: Path, recipe: Recipe) -> Surface:
 def _quantities(prepared: Prepared) -> dict[str, Quantity]:
     """Parameters of the prepared surface, those of the measured one as ``raw_...``, and the quality of the cell.
 
-    A bearing ratio is a fraction of the whole area, and invalid points lie mostly in pits and on flanks: the bearing
-    curve of the measured surface therefore counts its invalid points at their filled heights. All other parameters
-    leave them out.
+    Those of the measured surface are of its valid points, spikes and rims included.
     """
     record = prepared.record
-    raw = {**parameters(prepared.measured), **bearing_parameters(prepared.filled)}
+    outliers = sum(record["outliers"][name] for name in ("spikes", "rims", "above", "below"))
     return {
         **parameters(prepared.surface),
-        **{f"raw_{name}": quantity for name, quantity in raw.items()},
+        **{f"raw_{name}": quantity for name, quantity in parameters(prepared.measured).items()},
         "invalid_fraction": Quantity(value=record["invalid"]["fraction"], unit="1"),
+        "outlier_fraction": Quantity(value=outliers / record["invalid"]["measured"], unit="1"),
+        "filled_fraction": Quantity(value=record["filled"]["fraction"], unit="1"),
         "periodicity_mismatch": Quantity(value=record["periodicity_mismatch"]["after"], unit="1"),
         "raw_periodicity_mismatch": Quantity(value=record["periodicity_mismatch"]["before"], unit="1"),
     }

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from roughfilm.contact.preparation.prepare import Prepared
+from roughfilm.words.numbers import share
 
 
 def preparation_steps(prepared: Prepared) -> list[str]:
@@ -11,15 +12,19 @@ def preparation_steps(prepared: Prepared) -> list[str]:
     record: Any = prepared.record
     recipe = prepared.surface.source["recipe"]
     window, grid, cut, edges = record["window"], record["grid"], record["outliers"], record["edges"]
+    invalid, filled = record["invalid"]["points"], record["filled"]
     size, width = (
         " x ".join(f"{length * 1e6:.4g}" for length in pair) for pair in (prepared.surface.size, edges["width"])
     )
     joined = "in both directions" if edges["direction"] == "both" else f"along {edges['direction']}"
+    spiked = f"{cut['spikes']} points of spikes, {cut['rims']} on rims of invalid regions"
+    guessed = f"{filled['points']} points, {share(filled['fraction'])}, of which {invalid} were invalid"
     steps = {
         f"form: {recipe['form']}": recipe["form"] != "none",
-        f"filled: {record['invalid']['points']} invalid points": record["invalid"]["points"],
+        f"spikes: {spiked}": recipe["outliers"]["limit"],
         f"cut: {cut['above']} points above, {cut['below']} below": recipe["outliers"]["points"],
         **{f"{name}: nesting index {index * 1e6:.4g} µm": True for name, index in _filters(record["scale"]).items()},
+        f"filled: {guessed}": filled["points"],
         f"window: {window['pixels'][0]} x {window['pixels'][1]} pixels from {window['start']}, {size} µm": True,
         f"grid: {grid['points'][0]} x {grid['points'][1]} points": True,
         f"edges: joined {joined} ({edges['reason']}), filter {width} µm wide": edges["direction"] != "none",

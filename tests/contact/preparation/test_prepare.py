@@ -6,9 +6,7 @@ import pytest
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters.roughness_parameters import parameters
 from roughfilm.contact.preparation.filters import l_filter, s_filter
-from roughfilm.contact.preparation.form import remove_form
-from roughfilm.contact.preparation.outliers import cut_outliers
-from roughfilm.contact.preparation.prepare import prepare
+from roughfilm.contact.preparation.prepare import level, prepare
 from roughfilm.contact.preparation.recipe import Recipe, read_recipe, recipe_entries
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD
@@ -52,9 +50,11 @@ def test_every_step_leaves_its_mark():
     given = measured()
     prepared = prepare(given, Recipe())
     record = prepared.record
-    assert np.abs(prepared.measured.heights[prepared.measured.valid].mean()) < 1e-12
+    assert np.abs(prepared.measured.heights[prepared.measured.valid].mean()) < 1e-9
     assert record["invalid"]["residual"] <= 1e-9
+    assert record["outliers"]["spikes"] + record["outliers"]["rims"] == 2
     assert (record["outliers"]["above"], record["outliers"]["below"]) >= (1, 1)
+    assert record["filled"]["points"] == record["invalid"]["points"] + 2
     assert np.ptp(prepared.surface.heights) < 0.3 * np.ptp(prepared.measured.heights)
     assert prepared.surface.shape == (512, 256)
     assert prepared.surface.size == pytest.approx(given.size)
@@ -69,12 +69,13 @@ def test_filters_follow_the_outliers_and_precede_the_window():
     given = measured()
     entries = {"s_filter": "6 um", "l_filter": "80 um", "grid": {"points": "kept"}, "edges": {"direction": "none"}}
     prepared = prepare(given, read_recipe(entries))
-    form = remove_form(given, "quadratic")
-    kept, _ = cut_outliers(form)
-    expected = l_filter(s_filter(kept, 6e-6), 80e-6)
-    assert np.array_equal(prepared.measured.invalid, given.invalid)
-    assert np.allclose(prepared.measured.heights, expected.heights, rtol=0, atol=1e-9 * np.ptp(expected.heights))
-    assert np.array_equal(prepared.surface.heights[given.valid], prepared.measured.heights[given.valid])
+    levelled = level(given, read_recipe({}))
+    expected = l_filter(s_filter(levelled.trusted, 6e-6), 80e-6)
+    valid = expected.valid
+    assert not valid[17, 19]
+    assert np.array_equal(prepared.measured.invalid, ~valid)
+    assert np.array_equal(prepared.measured.heights, expected.heights)
+    assert np.array_equal(prepared.surface.heights[valid], expected.heights[valid])
     assert prepared.record["scale"] == {"form": "quadratic", "s_filter": 6e-6, "l_filter": 80e-6}
 
 
@@ -110,9 +111,9 @@ def test_a_surface_without_roughness_is_refused(heights):
 
 def test_a_surface_of_guesses_warns():
     given = measured()
-    invalid = np.random.default_rng(843).random(given.shape) < 0.4
+    invalid = given.invalid | (np.random.default_rng(843).random(given.shape) < 0.4)
     warnings = prepare(given.with_heights(given.heights, invalid=invalid), Recipe()).warnings
-    assert any("40 % of the points were invalid" in warning for warning in warnings)
+    assert any(warning.startswith(f"{100 * invalid.mean():.0f} % of the points were invalid") for warning in warnings)
 
 
 def test_a_surface_too_small_for_its_bins_warns_that_more_than_outliers_were_cut():
