@@ -4,7 +4,7 @@ The terminal, the page of a surface and the manual take them from here.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 Group = Literal["height", "functional", "volume", "hybrid", "spatial", "feature"]
@@ -19,9 +19,8 @@ GROUPS: Mapping[Group, str] = {
 }
 """Groups of parameters in the order of the tables, with their headings."""
 
-FROM_MEAN = "mean of the points: second order in the spacing, and better on a periodic surface"
-EXTREME = "second order in the spacing"
-CURVE = "second order in 1/n for a smooth bearing curve of n different heights"
+SECOND_ORDER = "second order in the spacing"
+CURVE = "second order in 1/n"
 SOURCE = "F. Sahlin, Luleå 2008"
 
 
@@ -49,10 +48,10 @@ class Definition:
     accuracy: str
 
 
-def _areal(
-    group: Group, name: str, meaning: str, equation: str, unit: str, clause: str, accuracy: str
+def _defined(
+    group: Group, name: str, meaning: str, equation: str, unit: str, source: str, accuracy: str
 ) -> tuple[str, Definition]:
-    standard = f"ISO 25178-2:2021, {clause}" if clause[0].isdigit() else clause
+    standard = f"ISO 25178-2:2021, {source}" if source[0].isdigit() else source
     return name, Definition(
         name=name, group=group, meaning=meaning, equation=equation, unit=unit, standard=standard, accuracy=accuracy
     )
@@ -60,17 +59,25 @@ def _areal(
 
 AREAL: Mapping[str, Definition] = dict(
     (
-        _areal("height", "Sa", "mean absolute height", r"\langle |z| \rangle", "m", "4.2", FROM_MEAN),
-        _areal("height", "Sq", "root mean square height", r"\sqrt{\langle z^2 \rangle}", "m", "4.2", FROM_MEAN),
-        _areal("height", "Sp", "highest point above the mean", r"\max z", "m", "4.2", EXTREME),
-        _areal("height", "Sv", "deepest point below the mean", r"-\min z", "m", "4.2", EXTREME),
-        _areal("height", "Sz", "from the lowest point to the highest", "S_p + S_v", "m", "4.2", EXTREME),
-        _areal("height", "St", "the same as Sz", "S_z", "m", SOURCE, EXTREME),
-        _areal("height", "Ssk", "skewness: below 0 for valleys", r"\langle z^3 \rangle / S_q^3", "1", "4.2", FROM_MEAN),
-        _areal(
-            "height", "Sku", "kurtosis: 3 for Gaussian heights", r"\langle z^4 \rangle / S_q^4", "1", "4.2", FROM_MEAN
+        _defined("height", "Sa", "mean absolute height", r"\langle |z| \rangle", "m", "4.2", SECOND_ORDER),
+        _defined("height", "Sq", "root mean square height", r"\sqrt{\langle z^2 \rangle}", "m", "4.2", SECOND_ORDER),
+        _defined("height", "Sp", "highest point above the mean", r"\max z", "m", "4.2", SECOND_ORDER),
+        _defined("height", "Sv", "deepest point below the mean", r"-\min z", "m", "4.2", SECOND_ORDER),
+        _defined("height", "Sz", "from the lowest point to the highest", "S_p + S_v", "m", "4.2", SECOND_ORDER),
+        _defined("height", "St", "the same as Sz", "S_z", "m", SOURCE, SECOND_ORDER),
+        _defined(
+            "height", "Ssk", "skewness: below 0 for valleys", r"\langle z^3 \rangle / S_q^3", "1", "4.2", SECOND_ORDER
         ),
-        _areal(
+        _defined(
+            "height",
+            "Sku",
+            "kurtosis: 3 for Gaussian heights",
+            r"\langle z^4 \rangle / S_q^4",
+            "1",
+            "4.2",
+            SECOND_ORDER,
+        ),
+        _defined(
             "functional",
             "Sk",
             "core: line in the flattest 40 %",
@@ -79,7 +86,7 @@ AREAL: Mapping[str, Definition] = dict(
             "4.5",
             CURVE,
         ),
-        _areal(
+        _defined(
             "functional",
             "Spk",
             "peaks above the core",
@@ -88,7 +95,7 @@ AREAL: Mapping[str, Definition] = dict(
             "4.5",
             CURVE,
         ),
-        _areal(
+        _defined(
             "functional",
             "Svk",
             "valleys below the core",
@@ -97,9 +104,11 @@ AREAL: Mapping[str, Definition] = dict(
             "4.5",
             CURVE,
         ),
-        _areal("functional", "Smr1", "material ratio above the core", r"S_{mc}(S_{mr1}) = a(0)", "1", "4.5", CURVE),
-        _areal("functional", "Smr2", "material ratio above the valleys", r"S_{mc}(S_{mr2}) = a(1)", "1", "4.5", CURVE),
-        _areal(
+        _defined("functional", "Smr1", "material ratio above the core", r"S_{mc}(S_{mr1}) = a(0)", "1", "4.5", CURVE),
+        _defined(
+            "functional", "Smr2", "material ratio above the valleys", r"S_{mc}(S_{mr2}) = a(1)", "1", "4.5", CURVE
+        ),
+        _defined(
             "functional",
             "Sxp",
             "from the median to the top 2.5 %",
@@ -108,7 +117,7 @@ AREAL: Mapping[str, Definition] = dict(
             "4.5",
             CURVE,
         ),
-        _areal(
+        _defined(
             "volume",
             "Vmp",
             "material of the peaks, top 10 %",
@@ -117,9 +126,9 @@ AREAL: Mapping[str, Definition] = dict(
             "4.5",
             CURVE,
         ),
-        _areal("volume", "Vmc", "material of the core, 10 to 80 %", r"V_m(80\,\%) - V_m(10\,\%)", "m", "4.5", CURVE),
-        _areal("volume", "Vvc", "void of the core, 10 to 80 %", r"V_v(10\,\%) - V_v(80\,\%)", "m", "4.5", CURVE),
-        _areal(
+        _defined("volume", "Vmc", "material of the core, 10 to 80 %", r"V_m(80\,\%) - V_m(10\,\%)", "m", "4.5", CURVE),
+        _defined("volume", "Vvc", "void of the core, 10 to 80 %", r"V_v(10\,\%) - V_v(80\,\%)", "m", "4.5", CURVE),
+        _defined(
             "volume",
             "Vvv",
             "void of the valleys, below 80 %",
@@ -128,180 +137,146 @@ AREAL: Mapping[str, Definition] = dict(
             "4.5",
             CURVE,
         ),
-        _areal(
+        _defined(
             "hybrid",
             "Sdq",
             "root mean square gradient",
             r"\sqrt{\langle (\partial_x z)^2 + (\partial_y z)^2 \rangle}",
             "1",
             "4.4",
-            "second order in the spacing",
+            SECOND_ORDER,
         ),
-        _areal(
+        _defined(
             "hybrid",
             "Sdr",
             "developed area over projected, less 1",
             r"\langle \sqrt{1 + (\partial_x z)^2 + (\partial_y z)^2} \rangle - 1",
             "1",
             "4.4",
-            "second order in the spacing",
+            SECOND_ORDER,
         ),
-        _areal(
+        _defined(
             "spatial",
             "Sal",
             "shortest correlation length",
             r"\min |t|,\; \langle z(x) z(x + t) \rangle = 0.2\, S_q^2",
             "m",
             "4.3",
-            "relative error 10⁻³, 10⁻⁴, 10⁻⁵ at 4, 8, 16 pixels per correlation length",
+            "10⁻³, 10⁻⁴, 10⁻⁵ at 4, 8, 16 pixels per correlation length",
         ),
-        _areal(
+        _defined(
             "spatial",
             "Str",
             "shortest over longest: 0 for a lay",
             r"S_{al} / \max |t|,\; \langle z(x) z(x + t) \rangle = 0.2\, S_q^2",
             "1",
             "4.3",
-            "as Sal; an upper bound where the longest length exceeds half the surface",
+            "as Sal",
         ),
-        _areal(
+        _defined(
             "spatial",
             "Std",
             "direction of the ridges from x",
             r"90^\circ + \theta,\; \int |\hat z(q, \theta)|^2 q\, dq \text{ greatest}",
             "deg",
-            "4.3 (its angle is that of the wave vector, 90° away)",
+            "4.3",
             "0.1° with a dozen grooves in view",
         ),
-        _areal(
+        _defined(
             "feature",
             "Spd",
             "density of significant peaks",
             r"N_\text{peaks} / A",
             "1/m^2",
             "5.8",
-            "exact once each hill is resolved; hills that touch an edge are left out",
+            "none once each hill is resolved",
         ),
-        _areal(
+        _defined(
             "feature",
             "Spc",
             "mean curvature at these peaks",
             r"-\tfrac{1}{2} \langle \partial_x^2 z + \partial_y^2 z \rangle_\text{peaks}",
             "1/m",
             "5.8",
-            "second order in the spacing for symmetric peaks, else first order with either sign",
+            "second order for symmetric peaks, else first",
         ),
-        _areal(
+        _defined(
             "feature",
             "S5p",
             "mean height of the five highest",
             r"\tfrac{1}{5} \sum_{i=1}^5 z_{\text{peak},i}",
             "m",
             "5.8",
-            EXTREME,
+            SECOND_ORDER,
         ),
-        _areal(
+        _defined(
             "feature",
             "S5v",
             "mean depth of the five deepest pits",
             r"-\tfrac{1}{5} \sum_{i=1}^5 z_{\text{pit},i}",
             "m",
             "5.8",
-            EXTREME,
+            SECOND_ORDER,
         ),
-        _areal("feature", "S10z", "ten-point height, also named S5z", r"S_{5p} + S_{5v}", "m", "5.8", EXTREME),
-        _areal(
+        _defined("feature", "S10z", "ten-point height, also named S5z", r"S_{5p} + S_{5v}", "m", "5.8", SECOND_ORDER),
+        _defined(
             "feature",
             "Spm",
             "mean of five peaks, Sal apart",
             r"\tfrac{1}{5} \sum_{i=1}^5 z_i,\; \text{no two within } S_{al}",
             "m",
             SOURCE,
-            EXTREME,
+            SECOND_ORDER,
         ),
-        _areal(
+        _defined(
             "feature",
             "Svm",
             "mean of five valleys, Sal apart",
             r"-\tfrac{1}{5} \sum_{i=1}^5 z_i,\; \text{no two within } S_{al}",
             "m",
             SOURCE,
-            EXTREME,
+            SECOND_ORDER,
         ),
     )
 )
 """Areal parameters by their names, in the order of the tables; z is measured from the mean of the valid points."""
 
 
-def _profile(group: Group, name: str, meaning: str, equation: str, unit: str, accuracy: str) -> tuple[str, Definition]:
-    return name, Definition(
-        name=name,
-        group=group,
-        meaning=meaning,
-        equation=equation,
-        unit=unit,
-        standard="ISO 21920-2:2021",
-        accuracy=accuracy,
-    )
-
-
+PROFILE_STANDARD = "ISO 21920-2:2021"
 SECTION_MEAN = r"\tfrac{1}{5} \sum_{i=1}^5 "
+
+
+def _like_areal(name: str) -> tuple[str, Definition]:
+    """The definition of a profile parameter that is that of the areal one for the heights of a profile."""
+    areal = AREAL[f"S{name[1:]}"]
+    return name, replace(areal, name=name, equation=areal.equation.replace("S_", "R_"), standard=PROFILE_STANDARD)
+
+
+def _profile(group: Group, name: str, meaning: str, equation: str, unit: str, accuracy: str) -> tuple[str, Definition]:
+    return _defined(group, name, meaning, equation, unit, PROFILE_STANDARD, accuracy)
+
 
 PROFILE: Mapping[str, Definition] = dict(
     (
-        _profile("height", "Ra", "mean absolute height", r"\langle |z| \rangle", "m", FROM_MEAN),
-        _profile("height", "Rq", "root mean square height", r"\sqrt{\langle z^2 \rangle}", "m", FROM_MEAN),
-        _profile("height", "Rt", "from the lowest point to the highest", r"\max z - \min z", "m", EXTREME),
-        _profile("height", "Rp", "highest point, mean of five sections", SECTION_MEAN + r"\max_{l_i} z", "m", EXTREME),
+        _like_areal("Ra"),
+        _like_areal("Rq"),
+        _profile("height", "Rt", "from the lowest point to the highest", r"\max z - \min z", "m", SECOND_ORDER),
         _profile(
-            "height", "Rv", "deepest point, mean of five sections", "-" + SECTION_MEAN + r"\min_{l_i} z", "m", EXTREME
+            "height", "Rp", "highest point, mean of five sections", SECTION_MEAN + r"\max_{l_i} z", "m", SECOND_ORDER
         ),
-        _profile("height", "Rz", "maximum height, mean of five sections", "R_p + R_v", "m", EXTREME),
-        _profile("height", "Rsk", "skewness: below 0 for valleys", r"\langle z^3 \rangle / R_q^3", "1", FROM_MEAN),
-        _profile("height", "Rku", "kurtosis: 3 for Gaussian heights", r"\langle z^4 \rangle / R_q^4", "1", FROM_MEAN),
         _profile(
-            "functional",
-            "Rk",
-            "core: line in the flattest 40 %",
-            r"a(0) - a(1),\; a \text{ fitted to } R_{mc} \text{ over the flattest } 40\,\%",
+            "height",
+            "Rv",
+            "deepest point, mean of five sections",
+            "-" + SECTION_MEAN + r"\min_{l_i} z",
             "m",
-            CURVE,
+            SECOND_ORDER,
         ),
-        _profile(
-            "functional",
-            "Rpk",
-            "peaks above the core",
-            r"\frac{2}{R_{mr1}} \int_0^{R_{mr1}} (R_{mc}(r) - a(0))\, dr",
-            "m",
-            CURVE,
-        ),
-        _profile(
-            "functional",
-            "Rvk",
-            "valleys below the core",
-            r"\frac{2}{1 - R_{mr2}} \int_{R_{mr2}}^1 (a(1) - R_{mc}(r))\, dr",
-            "m",
-            CURVE,
-        ),
-        _profile("functional", "Rmr1", "material ratio above the core", r"R_{mc}(R_{mr1}) = a(0)", "1", CURVE),
-        _profile("functional", "Rmr2", "material ratio above the valleys", r"R_{mc}(R_{mr2}) = a(1)", "1", CURVE),
-        _profile(
-            "hybrid",
-            "Rdq",
-            "root mean square gradient",
-            r"\sqrt{\langle (dz/dx)^2 \rangle}",
-            "1",
-            "second order in the spacing",
-        ),
-        _profile(
-            "feature",
-            "Rsm",
-            "mean spacing of profile elements",
-            r"\langle X_s \rangle",
-            "m",
-            "second order in the spacing",
-        ),
-        _profile("feature", "Rc", "mean height of profile elements", r"\langle Z_t \rangle", "m", EXTREME),
+        _profile("height", "Rz", "maximum height, mean of five sections", "R_p + R_v", "m", SECOND_ORDER),
+        *map(_like_areal, ("Rsk", "Rku", "Rk", "Rpk", "Rvk", "Rmr1", "Rmr2")),
+        _profile("hybrid", "Rdq", "root mean square gradient", r"\sqrt{\langle (dz/dx)^2 \rangle}", "1", SECOND_ORDER),
+        _profile("feature", "Rsm", "mean spacing of profile elements", r"\langle X_s \rangle", "m", SECOND_ORDER),
+        _profile("feature", "Rc", "mean height of profile elements", r"\langle Z_t \rangle", "m", SECOND_ORDER),
     )
 )
 """Profile parameters by their names, in the order of the tables; z is measured from the mean of the profile."""

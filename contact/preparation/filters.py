@@ -1,4 +1,4 @@
-"""Step 3 of the preparation: the S-filter removes short waves, the L-filter removes long ones (ISO 25178-3)."""
+"""Step 4 of the preparation: the S-filter removes short waves, the L-filter removes long ones (ISO 25178-3)."""
 
 import numpy as np
 import scipy

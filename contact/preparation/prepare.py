@@ -62,9 +62,9 @@ class Prepared:
 
     Attributes
     ----------
-    measured : after removal of the form; with an S- or L-filter after all steps up to the filters. Invalid points are
-        still marked.
-    filled : ``measured`` after clipping and the filters, with invalid points, spikes and rims filled.
+    measured : after removal of the form, with invalid points, spikes and rims; with an S- or L-filter the surface after
+        clipping and these filters, without spikes and rims.
+    filled : ``measured`` after clipping, with invalid points, spikes and rims filled.
     cell : ``filled`` cut to its window and resampled; edges as measured.
     joined : ``cell`` with joined edges.
     surface : ``joined`` after smoothing: the periodic cell.
@@ -109,9 +109,8 @@ class Levelled:
     Attributes
     ----------
     original : the surface as it was read.
-    measured : after removal of the form; with an S- or L-filter after all steps up to the filters. Invalid points are
-        still marked.
-    trusted : ``measured`` after clipping and the filters, with spikes and rims marked as invalid too.
+    measured : after removal of the form, with invalid points, spikes and rims; with an S- or L-filter as ``trusted``.
+    trusted : ``measured`` after clipping, with spikes and rims marked as invalid too, then the S- and the L-filter.
     filled : ``trusted`` with invalid points filled.
     record : data and changes of each step, as entries that JSON can hold.
     warnings : sentences on units that may be wrong.
@@ -136,7 +135,7 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
     trusted, cut = cut_outliers(kept, bins=recipe.outliers.bins, points=recipe.outliers.points)
     if recipe.s_filter is not None or recipe.l_filter is not None:
         measured = trusted = _scale_limited(trusted, recipe)
-        _refuse_constant(measured, surface)
+        _refuse_constant(trusted, surface)
     filled, residual = fill_invalid(trusted)
     record = {
         "invalid": {

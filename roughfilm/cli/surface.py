@@ -36,8 +36,8 @@ STEP_COUNT = 5
 
 OF_THE_CELL = {
     "invalid_fraction": "points without a height",
-    "outlier_fraction": "spikes, rims and clipped points",
-    "filled_fraction": "points whose height is filled in",
+    "outlier_fraction": "points of spikes, on rims, or clipped",
+    "filled_fraction": "points that are filled",
     "periodicity_mismatch": f"of opposite edges: good up to {MISMATCH_THRESHOLD:g}",
 }
 """Meanings of the quantities that are no parameters of roughness."""

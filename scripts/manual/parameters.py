@@ -14,8 +14,12 @@ segmentation, edges and invalid points."""
 
 FIELDS = """\
 $S_{mc}(p)$ is the height above which the fraction $p$ of the points lies, and $a$ the line through the flattest 40 % of
-this curve. Volumes are per area, in m³/m²; 1 µm is 1 ml/m². A parameter is left out where a surface does not have it:
-Spc, S5p, S5v and S10z where no hill or dale lies inside the edges."""
+this curve. Volumes are per area, in m³/m²; 1 µm is 1 ml/m². Std is the direction along the ridges, 90° from the angle
+of the standard. A parameter is left out where a surface does not have it: Spc, S5p, S5v and S10z where no hill or dale
+lies inside the edges.
+
+*Error* is the order of the discretisation error in the spacing of the points, or in 1/n for a smooth bearing curve of n
+different heights. Means over a smooth periodic surface are better than second order."""
 
 PROFILES = """\
 The names of a primary profile begin with P, those of a waviness profile with W (`profile="P"`). Rp, Rv and Rz are means
@@ -50,5 +54,5 @@ def _tables(definitions: Mapping[str, Definition]) -> Iterator[str]:
 
 def _row(one: Definition) -> str:
     equation = one.equation.replace("|", r"\vert ")
-    unit = one.unit if one.group != "volume" else "m³/m²"
+    unit = one.unit.replace("^2", "²") if one.group != "volume" else "m³/m²"
     return f"| {one.name} | {one.meaning} | ${equation}$ | {unit} | {one.standard} | {one.accuracy} |"
