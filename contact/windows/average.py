@@ -7,6 +7,7 @@ from typing import Any, Self
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.brief import brief
+from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.windows.scatter import scatter
 
 SCATTER, LOW, HIGH = "_scatter", "_window_low", "_window_high"
@@ -80,6 +81,21 @@ class WindowAverage:
         low, high = self.interval or (math.nan, math.nan)
         scattered = math.nan if self.scatter is None else self.scatter
         return {name: self.value, f"{name}{SCATTER}": scattered, f"{name}{LOW}": low, f"{name}{HIGH}": high}
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScatteredQuantity(Quantity):
+    """A quantity that is a mean over windows: its ``uncertainty`` is numerical, and the scatter is apart from it.
+
+    Attributes
+    ----------
+    scatter : half width of the 95 % confidence interval of the mean, from how the windows differ, in the same unit;
+        None if it is unknown.
+    window_interval : 95 % prediction interval for one further window; None if it is unknown.
+    """
+
+    scatter: float | None = None
+    window_interval: tuple[float, float] | None = None
 
 
 def window_average(

@@ -17,7 +17,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.timing import stopwatch
-from roughfilm.contact.foundation.units import to_si
+from roughfilm.contact.foundation.units import Quantity, to_si
 from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
@@ -25,18 +25,19 @@ from roughfilm.contact.read import HeightMap, parse_spacing, periodicity_warning
 from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.store import load_surface
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING, Surface
+from roughfilm.contact.windows.average import ScatteredQuantity
 from roughfilm.contact.windows.store import is_window_set
 from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
-from roughfilm.rom.homogenization.factors import NAMES, relative_quantities
-from roughfilm.rom.homogenization.flow_factors import Estimated, flow_factors
+from roughfilm.rom.homogenization.factors import NAMES
+from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.homogenization.table.kept import kept_table, table_inputs
 from roughfilm.rom.homogenization.table.resume import Work, resumed_table
 from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.homogenization.table.store import MARK
 from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE, tabulate
-from roughfilm.rom.homogenization.table.windows import mean_point, tabulate_windows
+from roughfilm.rom.homogenization.table.windows import factors_at, point_quantities, tabulate_windows
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.sets.cells import read_cells
@@ -52,7 +53,6 @@ from roughfilm.terminal.console import (
 from roughfilm.terminal.output_file import alone, refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.average import rounded
-from roughfilm.words.numbers import finite
 
 EXAMPLES = (
     "roughfilm factors scripts/examples/surfaces/milled.toml --gap 3um",
@@ -146,8 +146,14 @@ def command(
         if mean_gap is not None:
             separations = Separations(heights=rough.heights)
             drawn_gap = separations.gap(separations.at_mean_gap(mean_gap))
-            factors, point = _at_mean_gap(
-                windows, rough.spacing, mean_gap, independent, rule=rule, offset=constant, progress=advance
+            point = factors_at(
+                windows,
+                rough.spacing,
+                mean_gap,
+                independent=independent,
+                rule=rule,
+                offset=constant,
+                progress=advance,
             )
             entries = _entries_at(point)
         else:
@@ -178,7 +184,7 @@ def command(
             advance(1.0, "drawing the page")
             if table is not None:
                 drawn_gap = _drawn_gap(table, rough, settings)
-                factors = flow_factors(drawn_gap, rough.spacing, rule=rule)
+            factors = flow_factors(drawn_gap, rough.spacing, rule=rule, offset=constant)
             write_page(surface.name, entries, _points_of(entries), rough, report, drawn_gap, factors, table)
 
     def shown() -> Iterator[Table | str]:
@@ -256,48 +262,6 @@ def _table_of_windows(
     return tabulate_windows(windows, spacing, independent=independent, known=known, keep=keep, **options)
 
 
-def _part_of(progress: Progress, number: int, count: int, done: float, words: str) -> None:
-    """Report the progress of one of several windows."""
-    progress((number + done) / count, words)
-
-
-def _at_mean_gap(
-    windows: Sequence[Array],
-    spacing: tuple[float, float],
-    mean_gap: float,
-    independent: float | None,
-    *,
-    rule: FaceRule,
-    offset: float,
-    progress: Progress,
-) -> tuple[Estimated, Point]:
-    """The flow factors of the first window at a mean gap, m, and the point of the mean over all windows."""
-    found, points = [], []
-    for number, heights in enumerate(windows):
-        separations = Separations(heights=heights)
-        separation = separations.at_mean_gap(mean_gap)
-        gap = separations.gap(separation)
-        one = flow_factors(
-            gap, spacing, rule=rule, offset=offset, progress=partial(_part_of, progress, number, len(windows))
-        )
-        found.append(one)
-        points.append(
-            Point(
-                separation=separation,
-                contact=one.contact,
-                factors=one.factors,
-                uncertainty=one.uncertainty,
-                unsolved=one.unsolved,
-                iterations=one.iterations,
-                residual=one.residual,
-                cpu_s=0.0,
-            )
-        )
-    if independent is None:
-        return found[0], points[0]
-    return found[0], mean_point(points, points[0].mean_gap, independent)
-
-
 def _table_of_contacts(
     file: Path,
     pressed: Inputs,
@@ -354,15 +318,14 @@ def _relative(point: Point) -> dict[str, dict[str, Any]]:
 
     A mean over windows has its scatter and the interval for one window too.
     """
-    quantities = relative_quantities(point.factors, point.uncertainty).items()
-    entries: dict[str, dict[str, Any]] = {
-        name: {"value": one.value, "uncertainty": one.uncertainty} for name, one in quantities
-    }
-    if point.scatter is not None:
-        low, high = (relative_quantities(one, one) for one in (point.scatter.low, point.scatter.high))
-        for name, one in relative_quantities(point.scatter.mean, point.scatter.mean).items():
-            ends = [finite(low[name].value), finite(high[name].value)]
-            entries[name] |= {"scatter": finite(one.value), "window_interval": None if None in ends else ends}
+    return {name: _entries_of(one) for name, one in point_quantities(point).items()}
+
+
+def _entries_of(one: Quantity) -> dict[str, Any]:
+    entries: dict[str, Any] = {"value": one.value, "uncertainty": one.uncertainty}
+    if isinstance(one, ScatteredQuantity):
+        ends = one.window_interval
+        entries |= {"scatter": one.scatter, "window_interval": None if ends is None else list(ends)}
     return entries
 
 

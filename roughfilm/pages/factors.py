@@ -90,14 +90,14 @@ def _row(point: Mapping[str, Any], names: Iterable[str], *, pressed: bool) -> li
         *loaded,
         f"{1e6 * point['mean_gap']:.4g}",
         f"{100 * point['contact']:.3g}",
-        *(_factor(point, name) for name in names),
+        *(_factor(point, name, "\n± ") for name in names),
     ]
 
 
-def _factor(point: Mapping[str, Any], name: str) -> str:
-    """A factor with its uncertainty, and behind it the scatter of a mean over windows; or "sealed"."""
+def _factor(point: Mapping[str, Any], name: str, joint: str = " ± ") -> str:
+    """A factor with its uncertainty, and behind ``joint`` the scatter of a mean over windows; or "sealed"."""
     if (name == "A11" and point["sealed_x"]) or (name == "A22" and point["sealed_y"]):
         return "sealed"
     value, uncertainty = point[name]["value"], point[name]["uncertainty"]
     text = with_error(value, math.inf if uncertainty is None else uncertainty).replace("-", "−")
-    return f"{text} ± {rounded(point[name]['scatter'], value)}" if "scatter" in point[name] else text
+    return f"{text}{joint}{rounded(point[name]['scatter'], value)}" if "scatter" in point[name] else text

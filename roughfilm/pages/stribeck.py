@@ -148,4 +148,4 @@ def _closed(values: Array) -> Array:
 
 
 def _row(point: StribeckPoint, columns: Sequence[tuple[str, str, str, float]]) -> list[str]:
-    return [number_of(point, name, factor, named=False) for _, _, name, factor in columns]
+    return [number_of(point, name, factor, lines=True) for _, _, name, factor in columns]

@@ -43,14 +43,15 @@ def own_point(scene: Bearing, curve: StribeckCurve) -> StribeckPoint | None:
     return next((point for point in curve.points if math.isclose(point.speed, speed, rel_tol=1e-9)), None)
 
 
-def number_of(point: StribeckPoint, name: str, factor: float = 1.0, *, named: bool = True) -> str:
+def number_of(point: StribeckPoint, name: str, factor: float = 1.0, *, lines: bool = False) -> str:
     """A number of a point times a factor, with its uncertainty, which may be unknown.
 
-    The scatter of a mean over windows, which may be unknown too, stands behind it and, if ``named``, what it is.
+    The scatter of a mean over windows, which may be unknown too, stands behind it; with ``lines`` on the next line.
     """
     text = with_error(factor * getattr(point, name), factor * point.uncertainty.get(name, math.inf))
     if point.scatter:
-        text += f" ± {scatter_of(point, name, factor)}" + (" (windows)" if named else "")
+        scatter = scatter_of(point, name, factor)
+        text += f"\n± {scatter}" if lines else f" ± {scatter} (windows)"
     return text.replace("-", "−")
 
 

@@ -194,16 +194,20 @@ def point_of(gap: Array, spacing: tuple[float, float], separation: float, *, rul
     cpu = time.thread_time()
     one = flow_factors(gap, spacing, rule=rule)
     slopes = UNKNOWN_SLOPES if deformed else _slopes(gap, spacing, one, rule)
+    return replace(as_point(one, separation), cpu_s=time.thread_time() - cpu, slopes=slopes)
+
+
+def as_point(estimated: Estimated, separation: float) -> Point:
+    """The point of a table from flow factors at a separation, m, with unknown slopes."""
     return Point(
         separation=separation,
-        contact=one.contact,
-        factors=one.factors,
-        uncertainty=one.uncertainty,
-        unsolved=one.unsolved,
-        iterations=one.iterations,
-        residual=one.residual,
-        cpu_s=time.thread_time() - cpu,
-        slopes=slopes,
+        contact=estimated.contact,
+        factors=estimated.factors,
+        uncertainty=estimated.uncertainty,
+        unsolved=estimated.unsolved,
+        iterations=estimated.iterations,
+        residual=estimated.residual,
+        cpu_s=0.0,
     )
 
 

@@ -10,13 +10,16 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.windows.average import WindowAverage, window_average
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.contact.windows.average import ScatteredQuantity, WindowAverage, window_average
 from roughfilm.rom.homogenization.conductance import FaceRule
-from roughfilm.rom.homogenization.factors import NAMES, FactorScatter, FlowFactors
+from roughfilm.rom.homogenization.factors import NAMES, FactorScatter, FlowFactors, relative_quantities
+from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.homogenization.table.separation import Separations
 from roughfilm.rom.homogenization.table.tabulate import (
     INTERPOLATION_TOLERANCE,
+    as_point,
     checked_tolerance,
     point_of,
     refined,
@@ -90,6 +93,70 @@ def tabulate_windows(
         threads=threads,
         progress=progress,
     )
+
+
+def factors_at(
+    cells: Sequence[Array],
+    spacing: tuple[float, float],
+    mean_gap: float,
+    *,
+    independent: float | None = None,
+    rule: FaceRule = FaceRule.LINEAR,
+    offset: float = 0.0,
+    progress: Progress = silent,
+) -> Point:
+    """The flow factors of one surface, or the means over several windows, at one mean gap.
+
+    Parameters
+    ----------
+    cells : heights of one period of each window, m, shape (nx, ny), positive towards the flat wall.
+    spacing : (dx, dy), m.
+    mean_gap : mean gap ĥ before the offset, m.
+    independent : effective number of independent windows; None for a single surface, which has no scatter.
+    rule, offset : those of :func:`roughfilm.rom.homogenization.flow_factors.flow_factors`.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+    ConvergenceError
+        If a cell does not converge.
+    """
+    points = []
+    for number, cell in enumerate(cells):
+        body = Separations(heights=cell)
+        separation = body.at_mean_gap(mean_gap)
+
+        def advance(done: float, words: str, number: int = number) -> None:
+            progress((number + done) / len(cells), words)
+
+        found = flow_factors(body.gap(separation), spacing, rule=rule, offset=offset, progress=advance)
+        points.append(as_point(found, separation))
+    return points[0] if independent is None else mean_point(points, points[0].mean_gap, independent)
+
+
+def point_quantities(point: Point) -> dict[str, Quantity]:
+    """The factors of a point by their ``NAMES`` over those of a smooth film of its mean gap, with uncertainties.
+
+    Those of a point over windows have their scatter too.
+    """
+    own = relative_quantities(point.factors, point.uncertainty)
+    if point.scatter is None:
+        return own
+    halves, lows, highs = (
+        relative_quantities(part, part) for part in (point.scatter.mean, point.scatter.low, point.scatter.high)
+    )
+    scattered: dict[str, Quantity] = {}
+    for name, one in own.items():
+        half, low, high = halves[name].value, lows[name].value, highs[name].value
+        scattered[name] = ScatteredQuantity(
+            value=one.value,
+            unit=one.unit,
+            uncertainty=one.uncertainty,
+            scatter=half if math.isfinite(half) else None,
+            window_interval=(low, high) if math.isfinite(low) and math.isfinite(high) else None,
+        )
+    return scattered
 
 
 def _mean_gap(body: Separations, separation: float) -> float:
