@@ -21,7 +21,7 @@ from roughfilm.fitting.run import AREA, COUNT, SEEDS, entries_of, fit_windows
 from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, progress_bar
 from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
-from roughfilm.windows.plan import USUAL
+from roughfilm.sampling.plan import USUAL
 from roughfilm.words.fit import HEADS, headline, length, notes, rows
 
 EXAMPLES = (

@@ -18,7 +18,7 @@ from roughfilm.fitting.findings import Finding, findings_of, structure_of
 from roughfilm.fitting.judge import Held, halves, held_out, seeds_of
 from roughfilm.fitting.quantities import load_at_area, quantities_of
 from roughfilm.rom.ladder.model import Progress
-from roughfilm.windows.plan import Group, Plan, planned
+from roughfilm.sampling.plan import Group, Plan, planned
 from roughfilm.words.numbers import finite_entries
 
 COUNT = 48

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from roughfilm.windows.plan import planned
+from roughfilm.sampling.plan import planned
 
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.synthetic.gaussian import gaussian
