@@ -18,10 +18,10 @@ from roughfilm.contact.preparation.recipe import load_recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.fitting.run import AREA, COUNT, SEEDS, entries_of, fit_windows
+from roughfilm.sampling.plan import USUAL
 from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, progress_bar
 from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
-from roughfilm.sampling.plan import USUAL
 from roughfilm.words.fit import HEADS, headline, length, notes, rows
 
 EXAMPLES = (

@@ -134,7 +134,7 @@ def read_surface(
 
 
 def prepare(surface: Surface, recipe: str | Path | Mapping[str, Any] | None = None) -> preparation.Prepared:
-    """Prepare a measured surface as a periodic cell: level, fill, cut outliers, window, resample, join edges, smooth.
+    """Prepare a measured surface as a periodic cell: level, cut outliers, fill, window, resample, join edges, smooth.
 
     Parameters
     ----------

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from roughfilm.sampling.plan import planned
 
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.synthetic.gaussian import gaussian
 from roughfilm.contact.windows.scatter import scatter
 from roughfilm.contact.windows.size_trend import growth_of, size_trend
+from roughfilm.sampling.plan import planned
 
 RECIPE = {"grid": {"points": "kept"}, "form": "none", "outliers": {"points": 0}, "smoothing": 1}
 
