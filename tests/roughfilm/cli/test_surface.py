@@ -45,7 +45,9 @@ def test_json_is_one_object_with_parameters_before_and_after(run, csv, tmp_path)
     told = json.loads(done.stdout)
     assert set(told) == {"quantities", "numerics", "provenance"}
     names = {*PARAMETERS, *(f"raw_{name}" for name in PARAMETERS)}
-    assert names | {"invalid_fraction", "periodicity_mismatch", "raw_periodicity_mismatch"} == set(told["quantities"])
+    fractions = {"invalid_fraction", "outlier_fraction", "filled_fraction"}
+    assert names | fractions | {"periodicity_mismatch", "raw_periodicity_mismatch"} == set(told["quantities"])
+    assert told["quantities"]["filled_fraction"]["value"] == pytest.approx(1 / 4800)
     assert told["quantities"]["invalid_fraction"]["value"] == pytest.approx(1 / 4800)
     assert told["quantities"]["raw_Sq"] == {"value": pytest.approx(1e-6, rel=0.3), "unit": "m"}
     assert told["numerics"]["residual"] <= 1e-9
@@ -97,7 +99,7 @@ def test_people_get_a_table_and_the_warnings(run, csv):
     done = run(csv, "--set", "edges.direction=none")
     assert done.exit_code == 0
     assert re.search(r"Sa\b.*µm", done.output)
-    assert "filled: 1 invalid points" in done.output
+    assert "filled: 1 points, 0.021 %, of which 1 were invalid" in done.output
     assert "warning: periodicity mismatch" in done.output
 
 

@@ -474,6 +474,16 @@ def test_a_prepared_surface_fits_to_itself_and_keeps_its_middle() -> None:
         assert np.abs(cell.take(0, axis=axis) - cell.take(-1, axis=axis)).mean() < 1.5 * inside
 
 
+def test_the_rms_height_over_the_nesting_index_is_that_of_the_waves_that_are_kept() -> None:
+    """The two waves of 2 µm and 0.5 µm keep 2^-(S/L)² (1 − 2^-(L'/L)²) of their amplitudes L."""
+    for index, rms in values_of("surfaces/nesting_indices")["sq"].items():
+        kept = [
+            height * 2 ** (-((8 / length) ** 2)) * (1 - 2 ** (-((index / length) ** 2)))
+            for height, length in ((2e-6, 500), (0.5e-6, 25))
+        ]
+        assert rms == pytest.approx(np.hypot(*kept) / np.sqrt(2), rel=1e-3)
+
+
 # The ladder
 
 
