@@ -161,6 +161,7 @@ SEEDS = [surface_of_seed(seed, 24) for seed in (1, 2, 3)]
 
 KINDS: dict[str, Callable[[Path], Path]] = {
     "surface": reported("surface"),
+    "combination": reported("combine", "rough.toml", "--operation", "sum"),
     "contact": reported("contact", *STEEL),
     "factors": reported("factors", "--tolerance", 0.2, "--out", "factors.h5"),
     "leakage": written("leakage", Path("seal.toml")),
