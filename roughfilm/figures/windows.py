@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
 from roughfilm.contact.surfaces.surface import Surface
@@ -85,8 +86,7 @@ def values(shown: Shown) -> str:
         for number, found in enumerate(one.by_size.values()):
             jitter = number + rng.uniform(-0.2, 0.2, found.values.size)
             axes.plot(found.values / scale.factor, jitter, "o", color=DOTS, markersize=4, alpha=0.6)
-            bars = np.array([_bars(found, scale)]).T
-            axes.errorbar(found.mean / scale.factor, number, xerr=bars, fmt="D", color=MEANS, markersize=6, capsize=4)
+            _draw_mean(axes, found, scale, number, upright=False)
         axes.set_yticks(range(len(one.by_size)), [f"{1e6 * size:.4g}" for size in one.by_size])
         low, high = largest.interval or (0.0, 0.0)
         if 0 < MOST_LINEAR * low < high:
@@ -102,9 +102,8 @@ def over_size(shown: Shown) -> str:
     figure, panels = new_figure((10.4, 3.4 * -(-len(shown) // 2)), -(-len(shown) // 2), 2, squeeze=False)
     for axes, (title, one, scale) in zip(panels.flat, shown.values(), strict=False):
         inverse = [1e-3 / size for size in one.by_size]
-        means = [found.mean / scale.factor for found in one.by_size.values()]
-        bars = np.array([_bars(found, scale) for found in one.by_size.values()]).T
-        axes.errorbar(inverse, means, bars, fmt="D", color=MEANS, capsize=4, label="mean over windows")
+        for place, found in zip(inverse, one.by_size.values(), strict=True):
+            _draw_mean(axes, found, scale, place, upright=True)
         trend = one.trend
         if trend.limit is not None and trend.limit_uncertainty is not None:
             ends = np.array([0.0, max(inverse)])
@@ -124,12 +123,15 @@ def over_size(shown: Shown) -> str:
     return svg(figure)
 
 
-def _bars(found: Scatter, scale: Scale) -> tuple[float, float]:
-    """The lengths of the 95 % interval below and above the mean; NaN where it is unknown."""
-    if found.mean_interval is None:
-        return np.nan, np.nan
-    low, high = found.mean_interval
-    return (found.mean - low) / scale.factor, (high - found.mean) / scale.factor
+def _draw_mean(axes: Axes, found: Scatter, scale: Scale, place: float, *, upright: bool) -> None:
+    """Draw a mean at a place of the other axis, with its 95 % interval where that is known."""
+    mean = found.mean / scale.factor
+    point = (place, mean) if upright else (mean, place)
+    axes.plot(*point, "D", color=MEANS, markersize=6, label="mean over windows" if upright else None)
+    if found.mean_interval is not None:
+        low, high = (end / scale.factor for end in found.mean_interval)
+        bars: dict[str, Any] = {"yerr" if upright else "xerr": [[mean - low], [high - mean]]}
+        axes.errorbar(*point, **bars, fmt="none", ecolor=MEANS, capsize=4)
 
 
 def over_number(shown: Shown) -> str:

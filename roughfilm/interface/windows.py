@@ -68,7 +68,7 @@ def windows(
     Raises
     ------
     InputError
-        If an argument is out of range, or a window cannot be prepared.
+        If an argument is out of range, a window cannot be prepared, or none has an answer for such a reason.
     ConvergenceError
         If no window has an answer.
 

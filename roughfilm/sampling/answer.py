@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from roughfilm.contact.foundation.brief import brief
-from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.windows.scatter import MIN_INDEPENDENT, Scatter, scatter, windows_needed
 from roughfilm.contact.windows.size_trend import SizeTrend, Verdict, growth_of, size_trend
@@ -94,13 +94,14 @@ def answer_of(plan: Plan, asked: Asked, rows: Rows, tolerance: float) -> Answer:
 
     Raises
     ------
-    ConvergenceError
+    InputError, ConvergenceError
         If none of the largest windows has an answer.
     """
     main, own = plan.groups[0], rows.by_group[0]
     failures = [row.failure for row in own if row.failure is not None]
     if len(failures) == len(own):
-        raise ConvergenceError(f"windows: none has an answer; the first: {failures[0].message}")
+        kind = InputError if failures[0].kind == InputError.__name__ else ConvergenceError
+        raise kind(f"no window has an answer; the first: {failures[0].message}")
     heights = [float(np.mean([cell.heights.std() for cell in group.cells])) for group in plan.groups]
     growth = growth_of([group.size for group in plan.groups], heights)
     names = dict.fromkeys([asked.headline, *(name for row in own for name in row.quantities)])
@@ -159,25 +160,26 @@ def _quantity(
 def _drift(name: str, group: Group, rows: Sequence[Row], main: Scatter) -> float:
     """The smaller probability of the difference between the halves of the measurement in x, and in y, by chance.
 
-    The halves have as many independent windows as their part of all; t is that of two samples of equal variance.
+    The halves have as many independent windows as their part of all; t is that of two samples of equal variance, which
+    is that within the halves.
     """
     if not group.windows or main.independent < 2 * MIN_INDEPENDENT or main.deviation == 0:
         return math.nan
     some = [number for number, row in enumerate(rows) if name in row.quantities]
     values = np.array([rows[number].quantities[name].value for number in some])
-    least = math.nan
+    found = [math.nan]
     for axis in (0, 1):
         places = np.array([group.windows[number].start[axis] for number in some])
         first = places < np.median(places)
-        if not 0 < first.sum() < len(first):
+        worth = [main.independent * part.mean() for part in (first, ~first)]
+        if min(worth) < 2:
             continue
-        parts = [main.independent * part.mean() for part in (first, ~first)]
-        if min(parts) < 2:
-            continue
-        t = abs(values[first].mean() - values[~first].mean()) / (main.deviation * math.sqrt(sum(1 / n for n in parts)))
-        by_chance = 2 * float(scipy.special.stdtr(sum(parts) - 2, -t))
-        least = by_chance if math.isnan(least) else min(least, by_chance)
-    return least
+        within = float(np.mean((values - np.where(first, values[first].mean(), values[~first].mean())) ** 2))
+        deviation = math.sqrt(within / (1 - 2 / main.independent))
+        difference = abs(values[first].mean() - values[~first].mean())
+        t = difference / (deviation * math.sqrt(sum(1 / n for n in worth))) if deviation > 0 else math.inf
+        found.append(2 * float(scipy.special.stdtr(sum(worth) - 2, -t)))
+    return float(np.fmin.reduce(found))
 
 
 def _warnings(plan: Plan, rows: Rows, answer: Answer) -> Iterator[str]:

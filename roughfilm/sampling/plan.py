@@ -237,6 +237,7 @@ def _of_description(
         if min(shape) < MIN_PIXELS:
             if length == largest or sizes:
                 raise InputError(f"size: got {_micro(length)}, which is {min(shape)} points; give {MIN_PIXELS} or more")
+            warnings.append(f"surfaces of {_micro(length)} are left out: fewer than {MIN_PIXELS} points along a side")
             continue
         seeds = [entries["seed"] + SEEDS_APART * number + one for one in range(count)]
         cells = []
