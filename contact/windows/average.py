@@ -7,6 +7,7 @@ from typing import Any, Self
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.brief import brief
+from roughfilm.contact.foundation.rounding import with_error
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.windows.scatter import scatter
 
@@ -96,6 +97,12 @@ class ScatteredQuantity(Quantity):
 
     scatter: float | None = None
     window_interval: tuple[float, float] | None = None
+
+    def __str__(self) -> str:
+        """The value with its numerical uncertainty, its scatter with two digits, "?" if it is unknown, and the unit."""
+        scatter = "?" if self.scatter is None else f"{self.scatter:.2g}"
+        unit = f" {self.unit}" if self.unit != "1" else ""
+        return f"{with_error(self.value, self.uncertainty)} ± {scatter} (windows){unit}"
 
 
 def window_average(

@@ -32,13 +32,13 @@ def plan_of(edges, seed=1):
     )
 
 
-@pytest.mark.parametrize("edges", [{}, {"width": "2 um"}])
+@pytest.mark.parametrize("edges", [{}, {"width": "1 um"}])
 def test_the_joint_has_one_width(edges):
     plan = plan_of(edges)
     widths = {tuple(cell.source["record"]["edges"]["width"]) for group in plan.groups for cell in group.cells}
     assert len(widths) == 1
     assert [group.size for group in plan.groups] == pytest.approx([128e-6, 64e-6, 32e-6])
-    assert not edges or widths == {(2e-6, 2e-6)}
+    assert not edges or widths == {(1e-6, 1e-6)}
 
 
 def test_the_rms_height_of_the_surface_is_extrapolated_from_joined_windows():
