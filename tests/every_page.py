@@ -140,6 +140,7 @@ def written(command: str, scene: Path, *options: object) -> Callable[[Path], Pat
 KINDS: dict[str, Callable[[Path], Path]] = {
     "surface": reported("surface"),
     "contact": reported("contact", *STEEL),
+    "fit": reported("fit", "--windows", 16, "--seeds", 40),
     "factors": reported("factors", "--tolerance", 0.2, "--out", "factors.h5"),
     "leakage": written("leakage", Path("seal.toml")),
     "stribeck": written(

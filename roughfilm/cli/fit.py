@@ -8,12 +8,12 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from roughfilm.contact.fitting.text import BEGINS, description_text
+from roughfilm.contact.fitting.text import DESCRIPTION, description_text
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import to_si
-from roughfilm.contact.foundation.writing.kinds import PAGE, beginning_with
+from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.preparation.recipe import load_recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.surface import Surface
@@ -30,9 +30,6 @@ EXAMPLES = (
 )
 
 SOURCES = ("10.1103/PhysRevLett.77.635", "A. Gelman et al., Bayesian Data Analysis, section 3.6")
-
-DESCRIPTION = beginning_with("a description of roughfilm fit", BEGINS.encode())
-"""The file that is written."""
 
 COMPUTED = 0.97
 """Done fraction before the page is drawn."""

@@ -16,9 +16,9 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import RandomField, description_entries, make
 from roughfilm.fitting.findings import Finding, findings_of, structure_of
 from roughfilm.fitting.judge import Held, halves, held_out, seeds_of
-from roughfilm.fitting.quantities import load_at_area, quantities_of
+from roughfilm.fitting.quantities import load_at_area, quantities_of, refuse_area
 from roughfilm.rom.ladder.model import Progress
-from roughfilm.windows.plan import Group, Plan, planned
+from roughfilm.windows.plan import MIN_PIXELS, Group, Plan, planned
 from roughfilm.words.numbers import finite_entries
 
 COUNT = 48
@@ -77,6 +77,10 @@ class Fit:
         """The windows."""
         return self.plan.groups[0]
 
+    def surface_of(self, seed: int) -> Surface:
+        """The surface of a seed, 0 or more."""
+        return make(self.description.model_copy(update={"seed": seed}))
+
 
 def side_of_squares(size: tuple[float, float], count: int) -> float:
     """The side of the largest squares of which ``count`` fit into a rectangle in rows and columns, m."""
@@ -108,7 +112,8 @@ def fit_windows(
     given : measured surface, or the TOML file of a description.
     recipe : recipe of the preparation of windows.
     count : number of windows, 16 or more.
-    size : side of the windows, m; by default that of the largest squares of which ``count`` fit without overlap.
+    size : side of the windows, m; by default that of the largest squares of which ``count`` fit without overlap, but at
+        least 32 pixels.
     area : mean contact area fraction at which windows and seeds are compared.
     seeds : number of seeds of each fit, 40 or more.
     name : name for people.
@@ -125,8 +130,10 @@ def fit_windows(
         raise InputError(f"windows: got {count}; a fit and its judgement need {MIN_COUNT} or more")
     if seeds < 40:
         raise InputError(f"seeds: got {seeds}; a 95 % interval needs 40 or more")
+    refuse_area(area)
     if size is None and isinstance(given, Surface):
-        size = side_of_squares(given.size, count)
+        least = MIN_PIXELS * max(given.spacing)
+        size = max(side_of_squares(given.size, count), min(least, *given.size))
     plan = planned(
         given,
         recipe,
@@ -178,12 +185,27 @@ def fit_windows(
 
 def _warnings(plan: Plan, held: Mapping[str, Held], findings: tuple[Finding, ...]) -> list[str]:
     warnings = list(plan.warnings)
+    if overlap(plan.groups[0]):
+        warnings.append(
+            "windows overlap, so that those held out share points with those fitted, and the judgement is too good; "
+            "take fewer or smaller windows"
+        )
     failing = [f"{name}: {held_in_words(one)}" for name, one in held.items() if one.fails]
     if failing:
         reasons = [one.text for one in findings if one.lacking]
         why = "; why: " + "; ".join(reasons) if reasons else "; no test of phases, grooves, scratches or drift says why"
         warnings.append(f"seeds do not scatter as the windows do ({'; '.join(failing)}){why}")
     return warnings
+
+
+def overlap(group: Group) -> bool:
+    """Whether two windows share points."""
+    starts = np.array([window.start for window in group.windows])
+    if not len(starts):
+        return False
+    apart = np.abs(starts[:, None] - starts)
+    shared = (apart < group.windows[0].shape).all(axis=2)
+    return int(shared.sum()) > len(starts)
 
 
 def held_in_words(one: Held) -> str:

@@ -36,6 +36,7 @@ RUNS = {
     "effects": ["effects parabolic_slider.toml --resolution 64 --out effects"],
     "leakage": ["leakage seal.toml --loads 1kPa,20kPa --out leakage"],
     "surface": ["surface rough.toml --out cell.h5"],
+    "fit": ["fit rough.toml --windows 16 --seeds 40"],
     "contact": ["contact rough.toml --modulus 10MPa --poisson 0.5 --loads 1kPa,20kPa --out contacts.h5"],
     "factors": ["factors rough.toml --gap 0.5um"],
     "batch": ["batch study.toml --out sweep --jobs 1", "batch study.toml --out sweep --jobs 1 --dry-run"],
