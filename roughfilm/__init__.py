@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from roughfilm.interface.surfaces import press as press
     from roughfilm.interface.surfaces import read_surface as read_surface
     from roughfilm.interface.sweeps import sweep as sweep
+    from roughfilm.interface.windows import windows as windows
     from roughfilm.rom.ladder.kind import Scene as Scene
     from roughfilm.rom.ladder.result import Field as Field
     from roughfilm.rom.ladder.result import Result as Result
@@ -61,6 +62,7 @@ else:
         "interface.studies": ("load_study", "read_table", "run_study"),
         "interface.surfaces": ("flow_factors", "parameters", "prepare", "press", "read_surface"),
         "interface.sweeps": ("sweep",),
+        "interface.windows": ("windows",),
         "rom.ladder.kind": ("Scene",),
         "rom.ladder.result": ("Field", "Result"),
     }

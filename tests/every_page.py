@@ -42,6 +42,8 @@ WASHER += ["roughness.surface.anisotropy=1"]
 PAD = ["roughness.surface.points=[32, 32]", "roughness.surface.correlation_length=60um"]
 STEEL = ["--modulus", "200GPa", "--poisson", "0.3", "--hardness", "4GPa", "--loads", "100MPa,1GPa"]
 
+FEW_WINDOWS = ["--windows", 4, "--size", "80um", "--sizes", "40um", "--jobs", 1]
+
 SCENES_COMPARED = {
     "pocket": SCENES / "pocket.toml",
     "bearing": SCENES / "journal.toml",
@@ -149,6 +151,7 @@ KINDS: dict[str, Callable[[Path], Path]] = {
         *changes(*WASHER),
         *("--resolution", 16, "--loads", "1MPa,2MPa", "--speeds", "20rpm,500rpm"),
     ),
+    "windows": written("windows", Path("rough.toml"), "--scene", "seal.toml", *FEW_WINDOWS),
     "effects": written("effects", SCENES / "pad.toml", *changes(*PAD), "--resolution", 32),
     **{kind: partial(comparison, kind) for kind in SCENES_COMPARED},
     "sweep": sweep,

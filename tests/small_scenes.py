@@ -12,6 +12,9 @@ rms_height = "0.1 um"
 """
 """The file rough.toml of the scenes below."""
 
+SEEDS = SURFACE + 'amplitudes = "random"\n'
+"""The surface with a spectrum that varies from seed to seed."""
+
 CONTACT = """
 name = "small contact"
 kind = "dry_contact"

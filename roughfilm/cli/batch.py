@@ -9,14 +9,13 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
-from roughfilm.batch.cluster import Cluster
+from roughfilm.batch.cluster import Cluster, dask
 from roughfilm.batch.directory import alone
 from roughfilm.batch.executors import local
 from roughfilm.batch.plan import PLAN
 from roughfilm.batch.progress import BatchProgress, State
 from roughfilm.batch.shown import LISTED, duration, job_counts, print_failures, print_warned, state_table
 from roughfilm.batch.solve import finished, solved_table, tasks_of
-from roughfilm.batch.where import WAIT, Keys, OnMachines, Scheduler, Wait, Where, cluster_of
 from roughfilm.contact.foundation.writing.kinds import entries_from
 from roughfilm.ladder import models
 from roughfilm.rom.ladder.provenance import code, commit, versions
@@ -33,6 +32,7 @@ from roughfilm.terminal.console import (
     process_count,
     progress_bar,
 )
+from roughfilm.terminal.machines import WAIT, Keys, OnMachines, Scheduler, Wait, Where, waiting_time
 from roughfilm.terminal.output_file import refuse_unwritable
 from roughfilm.terminal.results import print_all, table_of, written
 
@@ -55,7 +55,8 @@ def command(
 ) -> None:
     """Solve every case of a study by every model and write table.csv and table.h5."""
     processes = process_count(jobs)
-    with cluster_of(executor, scheduler, tls, wait) as cluster:
+    limit = waiting_time(executor, scheduler, tls, wait)
+    with nullcontext() if scheduler is None else dask(scheduler, wait=limit, tls=tls) as cluster:
         read = load_study(study, models() if cluster is None else cluster.models())
         if cluster is not None:
             _say_lacking(cluster)

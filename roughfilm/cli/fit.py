@@ -17,12 +17,12 @@ from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.preparation.recipe import load_recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.fitting.run import AREA, COUNT, SEEDS, entries_of, fit_windows
+from roughfilm.fitting.run import AREA, COUNT, SEEDS, fit_windows
+from roughfilm.sampling.plan import USUAL
 from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, progress_bar
 from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
-from roughfilm.windows.plan import USUAL
-from roughfilm.words.fit import HEADS, headline, length, notes, rows
+from roughfilm.words.fit import HEADS, entries_of, headline, length, notes, rows
 
 EXAMPLES = (
     "roughfilm fit measured.x3p --out fitted.toml --report fitted.html",

@@ -8,8 +8,8 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
+from roughfilm.batch.cluster import dask
 from roughfilm.batch.executors import local
-from roughfilm.batch.where import WAIT, Keys, OnMachines, Scheduler, Wait, Where, cluster_of
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import to_si
@@ -21,6 +21,12 @@ from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.windows.store import FIRST_KEY, LIST, WindowSet, save_windows, stored_list
 from roughfilm.rom.studies.table import TABLE, table_beginning, write_csv, write_hdf5
+from roughfilm.sampling.answer import answer_of
+from roughfilm.sampling.asked import Asked, asked_of
+from roughfilm.sampling.plan import COUNT, USUAL, Plan, planned
+from roughfilm.sampling.run import examined
+from roughfilm.sampling.tabulate import FIRST_COLUMN
+from roughfilm.sampling.tabulate import table_of as columns_of
 from roughfilm.terminal.console import (
     NUMERICS,
     AsJson,
@@ -31,19 +37,15 @@ from roughfilm.terminal.console import (
     process_count,
     progress_bar,
 )
+from roughfilm.terminal.machines import WAIT, Keys, OnMachines, Scheduler, Wait, Where, waiting_time
 from roughfilm.terminal.output_file import alone, refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
-from roughfilm.windows.answer import answer_of, entries_of
-from roughfilm.windows.asked import Asked, asked_of
-from roughfilm.windows.plan import COUNT, USUAL, Plan, planned
-from roughfilm.windows.run import examined
-from roughfilm.windows.tabulate import table_of as columns_of
-from roughfilm.words.windows import headline, heads, quantity_cells
+from roughfilm.words.windows import entries_of, headline, heads, quantity_cells
 
 EXAMPLES = (
     "roughfilm windows measured.x3p --out windows",
     "roughfilm windows measured.x3p --scene scripts/examples/scenes/seal.toml --size 0.2mm --windows 64 --out windows",
-    "roughfilm windows scripts/examples/surfaces/rough.toml --gap 2um --out seeds",
+    "roughfilm windows scripts/examples/surfaces/ground.toml --gap 2um --out seeds",
 )
 
 SOURCES = ("10.1080/10691898.2005.11910638", "10.1093/biomet/26.4.404", "ISO 25178-2:2021")
@@ -102,7 +104,11 @@ def command(
     spent, processes = stopwatch(), process_count(jobs)
     refuse_same({"FILE": file, "--prepare": recipe, "--scene": scene, "--out": out})
     allowed, steps = _tolerance(tolerance), load_recipe(recipe, set_ or (), None if recipe else USUAL)
-    with cluster_of(executor, scheduler, tls, wait) as cluster, progress_bar(1.0) as advance:
+    limit = waiting_time(executor, scheduler, tls, wait)
+    with (
+        nullcontext() if scheduler is None else dask(scheduler, wait=limit, tls=tls) as cluster,
+        progress_bar(1.0) as advance,
+    ):
         advance(0.0, f"reading {file.name}")
         given = _given(file, steps, described=bool(recipe or set_))
         make_directory(out)
@@ -110,7 +116,7 @@ def command(
         refuse_unwritable(
             (page, PAGE),
             (stored, entries_from(FIRST_KEY)),
-            (out / "table.csv", table_beginning("size")),
+            (out / "table.csv", table_beginning(FIRST_COLUMN)),
             (out / "table.h5", TABLE),
         )
         with alone(stored, "run"), scratch_directory() as scratch:

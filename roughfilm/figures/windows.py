@@ -4,13 +4,15 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.contact.windows.scatter import scatter
+from roughfilm.contact.windows.scatter import Scatter, scatter
 from roughfilm.figures.base import new_figure, surface_map, svg
-from roughfilm.windows.answer import WindowQuantity
-from roughfilm.windows.plan import Group
+from roughfilm.figures.ticks import plain_logarithmic
+from roughfilm.sampling.answer import WindowQuantity
+from roughfilm.sampling.plan import Group
 from roughfilm.words.scales import Scale
 
 DOTS, MEANS, LIMIT = "#4a7fb5", "#b2182b", "#1a7f37"
@@ -84,16 +86,12 @@ def values(shown: Shown) -> str:
         for number, found in enumerate(one.by_size.values()):
             jitter = number + rng.uniform(-0.2, 0.2, found.values.size)
             axes.plot(found.values / scale.factor, jitter, "o", color=DOTS, markersize=4, alpha=0.6)
-            mean = found.mean / scale.factor
-            if found.mean_interval is None:
-                axes.plot(mean, number, "D", color=MEANS, markersize=6)
-                continue
-            bars = [[mean - found.mean_interval[0] / scale.factor], [found.mean_interval[1] / scale.factor - mean]]
-            axes.errorbar(mean, number, xerr=bars, fmt="D", color=MEANS, markersize=6, capsize=4)
+            _draw_mean(axes, found, scale, number, upright=False)
         axes.set_yticks(range(len(one.by_size)), [f"{1e6 * size:.4g}" for size in one.by_size])
         low, high = largest.interval or (0.0, 0.0)
         if 0 < MOST_LINEAR * low < high:
             axes.set_xscale("log")
+            plain_logarithmic(axes.xaxis)
         axes.set(xlabel=scale.label(title), ylabel="window, µm", ylim=(len(one.by_size) - 0.5, -0.5))
     _hide_rest(panels, len(shown))
     return svg(figure)
@@ -104,9 +102,8 @@ def over_size(shown: Shown) -> str:
     figure, panels = new_figure((10.4, 3.4 * -(-len(shown) // 2)), -(-len(shown) // 2), 2, squeeze=False)
     for axes, (title, one, scale) in zip(panels.flat, shown.values(), strict=False):
         inverse = [1e-3 / size for size in one.by_size]
-        means = [found.mean / scale.factor for found in one.by_size.values()]
-        half = [(found.mean_uncertainty or np.nan) / scale.factor for found in one.by_size.values()]
-        axes.errorbar(inverse, means, half, fmt="D", color=MEANS, capsize=4, label="mean over windows")
+        for place, found in zip(inverse, one.by_size.values(), strict=True):
+            _draw_mean(axes, found, scale, place, upright=True)
         trend = one.trend
         if trend.limit is not None and trend.limit_uncertainty is not None:
             ends = np.array([0.0, max(inverse)])
@@ -124,6 +121,17 @@ def over_size(shown: Shown) -> str:
     _hide_rest(panels, len(shown))
     _legend(figure, panels)
     return svg(figure)
+
+
+def _draw_mean(axes: Axes, found: Scatter, scale: Scale, place: float, *, upright: bool) -> None:
+    """Draw a mean at a place of the other axis, with its 95 % interval where that is known."""
+    mean = found.mean / scale.factor
+    point = (place, mean) if upright else (mean, place)
+    axes.plot(*point, "D", color=MEANS, markersize=6, label="mean over windows" if upright else None)
+    if found.mean_interval is not None:
+        low, high = (end / scale.factor for end in found.mean_interval)
+        bars: dict[str, Any] = {"yerr" if upright else "xerr": [[mean - low], [high - mean]]}
+        axes.errorbar(*point, **bars, fmt="none", ecolor=MEANS, capsize=4)
 
 
 def over_number(shown: Shown) -> str:
@@ -146,10 +154,10 @@ def over_number(shown: Shown) -> str:
         known = np.isfinite(high)
         if known.any():
             last = np.flatnonzero(known)[-1]
-            span = 2.5 * max(high[last] - means[last], means[last] - low[last])
-            middle = means[-1]
-            bottom, top = (min(min(means), middle - span), max(max(means), middle + span))
-            axes.set_ylim(bottom - 0.05 * (top - bottom or 1), top + 0.05 * (top - bottom or 1))
+            bottom = min(*means, means[-1] - 2.5 * (means[-1] - low[last]))
+            top = max(*means, means[-1] + 2.5 * (high[last] - means[-1]))
+            room = 0.05 * (top - bottom or 1.0)
+            axes.set_ylim(max(bottom - room, 0.0) if found.positive else bottom - room, top + room)
         axes.set(xlabel="number of windows", ylabel=scale.label(title))
     _hide_rest(panels, len(shown))
     _legend(figure, panels)

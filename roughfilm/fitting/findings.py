@@ -18,7 +18,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.fitting.quantities import NAMES, quantities_of
-from roughfilm.windows.plan import Group
+from roughfilm.sampling.plan import Group
 
 RARE = 1e-3
 """Probability of a difference between windows and their copies of random phase below which it is stated."""

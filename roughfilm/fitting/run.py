@@ -1,9 +1,8 @@
 """The fit of a description to the windows of a surface, and its judgement."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -13,13 +12,12 @@ from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.preparation.recipe import Recipe
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.contact.synthetic.description import RandomField, description_entries, make
+from roughfilm.contact.synthetic.description import RandomField, make
 from roughfilm.fitting.findings import Finding, findings_of, structure_of
 from roughfilm.fitting.judge import Held, halves, held_out, seeds_of
 from roughfilm.fitting.quantities import load_at_area, quantities_of, refuse_area
 from roughfilm.rom.ladder.model import Progress
-from roughfilm.windows.plan import MIN_PIXELS, Group, Plan, planned
-from roughfilm.words.numbers import finite_entries
+from roughfilm.sampling.plan import MIN_PIXELS, Group, Plan, planned
 
 COUNT = 48
 """Default number of windows."""
@@ -212,23 +210,3 @@ def held_in_words(one: Held) -> str:
     """How many held-out windows are inside, and where the others are."""
     outside = [f"{number} {where}" for number, where in ((one.below, "below"), (one.above, "above")) if number]
     return f"{one.inside} of {one.count} held-out windows inside" + (f", {' and '.join(outside)}" if outside else "")
-
-
-def entries_of(fit: Fit) -> dict[str, Any]:
-    """The fit as entries that JSON can hold, in SI units; permeabilities are in m³, pressures over E*."""
-    entries: dict[str, Any] = finite_entries(
-        {
-            "surface": fit.name,
-            "size": fit.group.size,
-            "independent": fit.group.independent,
-            "area": fit.area,
-            "load": fit.load,
-            "held": {
-                name: {**asdict(one), "fails": one.fails, "windows": windows.tolist(), "seeds": seeds.tolist()}
-                for (name, one), windows, seeds in zip(fit.held.items(), fit.windows.T, fit.seeds.T, strict=True)
-            },
-            "findings": [asdict(one) for one in fit.findings],
-            "description": description_entries(fit.description),
-        }
-    )
-    return entries

@@ -11,7 +11,7 @@ from roughfilm.contact.preparation.recipe import load_recipe, read_recipe
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.fitting.run import AREA, COUNT, SEEDS, Fit, fit_windows
 from roughfilm.rom.ladder.model import Progress, silent
-from roughfilm.windows.plan import USUAL
+from roughfilm.sampling.plan import USUAL
 from roughfilm.words.fit import notes
 
 
@@ -62,6 +62,18 @@ def fit_description(
     References
     ----------
     Schreiber and Schmitz, doi:10.1103/PhysRevLett.77.635 (random fields with given spectrum and heights).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughfilm as rf
+    >>> noise = np.fft.rfft2(np.random.default_rng(1).standard_normal((128, 128)))
+    >>> waves = np.hypot(np.fft.fftfreq(128, 1 / 128)[:, None], np.arange(65)[None, :])
+    >>> heights = 1e-8 * np.fft.irfft2(noise * np.exp(-((waves / 16) ** 2)))
+    >>> measured = rf.Surface(heights=heights, spacing=(1e-6, 1e-6))
+    >>> fit = rf.fit_description(measured, windows=16, size=32e-6, seeds=40)
+    >>> fit.held["contact pressure"].count, fit.surface_of(7).shape
+    (16, (32, 32))
     """
     if isinstance(surface, str | os.PathLike):
         given: Surface | Path = Path(surface)

@@ -7,8 +7,8 @@ from typing import Any
 from roughfilm.contact.windows.scatter import MIN_INDEPENDENT
 from roughfilm.figures import windows as window_figures
 from roughfilm.pages.render import render
-from roughfilm.windows.answer import Answer
-from roughfilm.windows.plan import Plan
+from roughfilm.sampling.answer import Answer
+from roughfilm.sampling.plan import Plan
 from roughfilm.words.windows import headline, known_to, quantity_cells, scale_of_quantity, title_of
 
 DRAWN = {
@@ -57,7 +57,7 @@ def write_page(
         entries=entries,
         warnings=answer.warnings,
         least=MIN_INDEPENDENT,
-        known=None if one.scatter.relative is None else known_to(one.scatter.relative),
+        known=None if one.scatter.relative is None else known_to(one.scatter),
         places=window_figures.places(plan.surface, plan.groups) if plan.surface is not None else None,
         seeds=window_figures.seeds(plan.groups[0]) if plan.surface is None else None,
         values=window_figures.values(shown),

@@ -1,11 +1,17 @@
-"""Scatter between windows in words and numbers."""
+"""Scatter between windows in words, in numbers, and as entries for JSON."""
+
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
 
 from roughfilm.contact.windows.scatter import Scatter
 from roughfilm.contact.windows.size_trend import Verdict
 from roughfilm.rom.ladder.kind import kind_of_name
-from roughfilm.windows.answer import Answer, WindowQuantity
-from roughfilm.words.numbers import share
+from roughfilm.sampling.answer import Answer, WindowQuantity
+from roughfilm.words.numbers import finite_entries, share
 from roughfilm.words.scales import PERCENT, Scale, scale_for
+from roughfilm.words.units import EXACT
 
 PLAIN = {
     "friction_coefficient": "friction coefficient",
@@ -65,13 +71,19 @@ def headline(answer: Answer, kind: str) -> str:
         parts.append(f"{side} {ends(found, scale)} (95 %)")
         if found.relative is not None:
             needed = f"; {one.needed} windows for {share(answer.tolerance)}" if one.needed is not None else ""
-            parts.append(f"mean known to {known_to(found.relative)}{needed}")
+            parts.append(f"mean known to {known_to(found)}{needed}")
     return ", ".join(parts)
 
 
-def known_to(relative: float) -> str:
-    """A relative uncertainty in words: per cent, or a factor where it is large."""
-    return share(relative) if relative < LARGE else f"a factor of {1 + relative:.2g}"
+def known_to(found: Scatter) -> str:
+    """The relative uncertainty of a mean in words: per cent, or a factor where a positive mean has a large one."""
+    if found.relative is None:
+        return "unknown"
+    if found.relative == 0:
+        return EXACT
+    if found.positive and found.relative > LARGE:
+        return f"a factor of {1 + found.relative:.2g}"
+    return share(found.relative)
 
 
 def size_part(one: WindowQuantity, scale: Scale) -> str:
@@ -100,6 +112,7 @@ def heads(tolerance: float) -> tuple[str, ...]:
     return (
         "quantity",
         "mean",
+        "known to",
         "one window (95 %)",
         "numerical ±",
         "due to size",
@@ -111,14 +124,53 @@ def heads(tolerance: float) -> tuple[str, ...]:
 def quantity_cells(name: str, one: WindowQuantity, kind: str) -> tuple[str, ...]:
     """The row of a quantity: mean with the uncertainty of the mean, one window, and what else is known."""
     scale, found = scale_of_quantity(name, one), one.scatter
-    unknown = float("inf")
-    half = found.mean_uncertainty
     return (
         scale.label(title_of(name, kind)),
-        scale.number(found.mean, unknown if half is None else half),
+        scale.number(found.mean),
+        known_to(found),
         ends(found, scale),
         "unknown" if one.numerical is None else scale.number(one.numerical),
         size_part(one, scale),
         whole_surface(one, scale),
         "unknown" if one.needed is None else str(one.needed),
     )
+
+
+def entries_of(answer: Answer) -> dict[str, Any]:
+    """The answer as entries that JSON can hold."""
+    entries: dict[str, Any] = finite_entries(
+        {
+            "surface": answer.name,
+            "headline": answer.headline,
+            "size": answer.size,
+            "windows": answer.count,
+            "independent": answer.independent,
+            "tolerance": answer.tolerance,
+            "quantities": {name: _quantity_entries(one) for name, one in answer.quantities.items()},
+        }
+    )
+    return entries
+
+
+def _quantity_entries(one: WindowQuantity) -> dict[str, Any]:
+    trend = {name: _listed(value) for name, value in asdict(one.trend).items()}
+    return {
+        "value": one.scatter.mean,
+        "unit": one.unit,
+        "uncertainty": one.scatter.mean_uncertainty,
+        "numerical_uncertainty": one.numerical,
+        "windows_needed": one.needed,
+        "windows_lacking": one.lacking,
+        "drift_by_chance": one.drift,
+        "scatter": _scatter_entries(one.scatter),
+        "trend": trend,
+        "by_size": [{"size": size, **_scatter_entries(found)} for size, found in one.by_size.items()],
+    }
+
+
+def _scatter_entries(found: Scatter) -> dict[str, Any]:
+    return {name: _listed(value) for name, value in vars(found).items()} | {"mean_uncertainty": found.mean_uncertainty}
+
+
+def _listed(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray) else value

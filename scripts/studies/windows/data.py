@@ -16,7 +16,7 @@ from roughfilm.fitting.judge import halves, held_out
 from roughfilm.fitting.quantities import NAMES, load_at_area, quantities_of
 from roughfilm.fitting.run import side_of_squares
 from roughfilm.rom.ladder.provenance import imported_code
-from roughfilm.windows.plan import Group, planned
+from roughfilm.sampling.plan import Group, planned
 from scripts.studies.study import kept
 
 SURFACES: Mapping[str, Mapping[str, Any]] = {
@@ -43,7 +43,7 @@ AREAS = (0.1, 0.05)
 RANDOM_HALVES = 2
 """Number of random halves; the spatial ones are by x and by y."""
 
-MODULES = ("roughfilm.fitting.judge", "roughfilm.fitting.findings", "roughfilm.windows.plan")
+MODULES = ("roughfilm.fitting.judge", "roughfilm.fitting.findings", "roughfilm.sampling.plan")
 """Modules whose code determines the numbers."""
 
 

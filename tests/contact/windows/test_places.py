@@ -9,6 +9,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.preparation.window import Window
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.windows.places import independent_windows, window_places
+from roughfilm.contact.windows.scatter import scatter
 
 
 def overlaps(one, other):
@@ -68,6 +69,26 @@ def test_the_variance_of_a_mean_over_windows_is_that_of_the_independent_ones(len
     true = np.mean((areas - areas.mean()) ** 2) / areas.mean(axis=1).var()
     found = [independent_windows(places, Surface(heights=heights, spacing=(1.0, 1.0))) for heights in surfaces[:10]]
     assert np.median(found) == pytest.approx(true, rel=0.25)
+
+
+@pytest.mark.parametrize(
+    ("lengths", "size", "number"), [((3, 3), 32, 16), ((3, 3), 48, 9), ((3, 60), 32, 16), ((8, 8), 32, 8)]
+)
+def test_intervals_from_the_windows_of_one_surface_cover_the_ensemble(lengths, size, number):
+    """The mean of all surfaces, and a window of another surface: rms height and area above a height, 300 surfaces."""
+    rng = np.random.default_rng(11)
+    places = window_places((128, 128), (size, size), number)
+    surfaces = list(islice(ensemble(rng, lengths), 300))
+    worth = independent_windows(places, Surface(heights=surfaces[0], spacing=(1.0, 1.0)))
+    for quantity in (np.std, lambda heights: (heights > 1).mean()):
+        values = np.array([[quantity(heights[one.slices]) for one in places] for heights in surfaces])
+        truth, inside, further = values.mean(), [], []
+        for own, other in zip(values, np.roll(values, 1, axis=0)[:, 0], strict=True):
+            found = scatter(own, worth, positive=True)
+            inside.append(found.mean_interval[0] <= truth <= found.mean_interval[1])
+            further.append(found.interval[0] <= other <= found.interval[1])
+        assert 0.9 <= np.mean(inside) <= 0.99
+        assert 0.9 <= np.mean(further) <= 0.98
 
 
 def test_windows_larger_than_the_measurement_or_of_two_shapes_are_refused():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.windows.scatter import binomial_interval, scatter, windows_needed
+from roughfilm.contact.windows.scatter import Distribution, binomial_interval, scatter, windows_needed
 
 TRIES = 500
 
@@ -39,6 +39,24 @@ def test_lognormal_values_are_covered(spread, count):
     truth = math.exp(spread**2 / 2)
     for rate in coverage(lambda size: np.exp(spread * rng.normal(size=size)), truth, count, positive=True):
         assert 0.9 <= rate <= 0.98
+
+
+@pytest.mark.parametrize("spread", [0.15, 0.5])
+@pytest.mark.parametrize("count", [6, 40])
+def test_cubes_of_normal_gaps_are_covered(spread, count):
+    """Leakage through gaps of a normal distribution, 2 % of which are closed at a spread of 0.5."""
+    rng = np.random.default_rng(6)
+    truth = 1 + 3 * spread**2  # <h³> of open gaps; closed ones add less than 1 %
+    for rate in coverage(lambda size: np.maximum(rng.normal(1, spread, size), 0) ** 3, truth, count, positive=True):
+        assert 0.9 <= rate <= 0.98
+
+
+@pytest.mark.parametrize("unit", [1e-20, 1.0, 1e9])
+def test_the_distribution_is_chosen_by_likelihood_whatever_the_unit(unit):
+    rng = np.random.default_rng(7)
+    logarithms, roots = np.exp(rng.normal(size=200)), rng.normal(1, 0.25, size=200) ** 3
+    assert scatter(unit * logarithms, positive=True).distribution is Distribution.LOGARITHMS
+    assert scatter(unit * roots, positive=True).distribution is Distribution.CUBE_ROOTS
 
 
 def test_values_of_which_a_fifth_is_sealed_are_covered():
@@ -109,6 +127,12 @@ def test_the_windows_needed_reach_the_tolerance(positive):
     whole = scatter(same, needed, positive)
     assert whole.relative == pytest.approx(0.05, rel=0.1)
     assert windows_needed(few, 0.1) < needed / 3
+
+
+def test_values_that_differ_by_rounding_have_no_scatter():
+    found = scatter([1.0, 1.0 + 2e-16, 1.0, 1.0 - 1e-16], positive=True)
+    assert (found.deviation, found.interval, found.mean_uncertainty) == (0, (1, 1), 0)
+    assert windows_needed(found, 0.05) == 3
 
 
 def test_values_that_are_no_numbers_or_below_zero_are_refused():

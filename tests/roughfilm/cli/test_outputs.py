@@ -88,6 +88,8 @@ def test_a_file_of_another_kind_is_kept(place, words):
         (["effects", SCENES / "pad.toml"], "report.html"),
         (["leakage", SCENES / "seal.toml"], "table.csv"),
         (["stribeck", SCENES / "rough_washer.toml"], "stribeck.h5"),
+        (["windows", "rough.toml"], "table.csv"),
+        (["windows", "rough.toml"], "windows.json"),
         (["charts"], "charts.png"),
         (["stability", "cell"], "report.html"),
         (["validate"], "validation.json"),
@@ -116,8 +118,9 @@ def test_a_person_may_replace_another_kind_of_file(place):
         (["effects", SCENES / "pad.toml", "--out", "out"], "report.html"),
         (["leakage", SCENES / "seal.toml", "--out", "out"], "leakage.h5"),
         (["stribeck", SCENES / "rough_washer.toml", "--out", "out"], "stribeck.h5"),
+        (["windows", "rough.toml", "--out", "out"], "windows.json"),
     ],
-    ids=["compare", "effects", "leakage", "stribeck"],
+    ids=["compare", "effects", "leakage", "stribeck", "windows"],
 )
 def test_the_second_command_into_one_place_is_refused(place, words, page):
     with locked(place / "out" / f".{page}.lock", "held"):

@@ -37,6 +37,7 @@ RUNS = {
     "leakage": ["leakage seal.toml --loads 1kPa,20kPa --out leakage"],
     "surface": ["surface rough.toml --out cell.h5"],
     "fit": ["fit rough.toml --windows 16 --seeds 40"],
+    "windows": ["windows rough.toml --scene seal.toml --windows 4 --size 80um --sizes 40um --jobs 1 --out windows"],
     "contact": ["contact rough.toml --modulus 10MPa --poisson 0.5 --loads 1kPa,20kPa --out contacts.h5"],
     "factors": ["factors rough.toml --gap 0.5um"],
     "batch": ["batch study.toml --out sweep --jobs 1", "batch study.toml --out sweep --jobs 1 --dry-run"],
@@ -51,7 +52,7 @@ RUNS = {
 }
 """Small examples of the commands; report needs the sweep of batch before it, collect the cases of generate."""
 
-ONE_WIDTH = {"doctor", "compare", "leakage", "report", "stribeck"}
+ONE_WIDTH = {"doctor", "compare", "leakage", "report", "stribeck", "windows"}
 """Commands that take seconds, which are run in the narrower terminal alone."""
 
 FILES = {"new", "schema"}

@@ -13,7 +13,7 @@ from roughfilm.fitting.findings import findings_of, structure_of
 from roughfilm.fitting.judge import Held, halves, held_out, interval_of
 from roughfilm.fitting.quantities import NAMES, load_at_area, quantities_of
 from roughfilm.fitting.run import fit_windows, overlap, side_of_squares
-from roughfilm.windows.plan import Group
+from roughfilm.sampling.plan import Group
 
 COUNT = 32
 

@@ -3,8 +3,11 @@
 import math
 
 from roughfilm.rom.studies.table import Column
-from roughfilm.windows.plan import Plan
-from roughfilm.windows.run import Rows
+from roughfilm.sampling.plan import Plan
+from roughfilm.sampling.run import Rows
+
+FIRST_COLUMN = "window"
+"""The first column, by which a file is recognised: numbers of the windows of each size."""
 
 
 def table_of(plan: Plan, rows: Rows) -> dict[str, Column]:
@@ -12,7 +15,7 @@ def table_of(plan: Plan, rows: Rows) -> dict[str, Column]:
     ordered = [row for own in rows.by_group for row in own]
     sizes = [group.size for group in plan.groups for _ in group.cells]
     numbers = [float(number + 1) for group in plan.groups for number in range(len(group.cells))]
-    table = {"size": Column(values=sizes, unit="m"), "window": Column(values=numbers, unit="1")}
+    table = {FIRST_COLUMN: Column(values=numbers, unit="1"), "size": Column(values=sizes, unit="m")}
     if plan.surface is None:
         seeds = [float(seed) for group in plan.groups for seed in group.seeds]
         table["seed"] = Column(values=seeds, unit="1")

@@ -17,8 +17,8 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.ladder.provenance import code, imported_code, versions
 from roughfilm.rom.parts.surface_geometry import digest_of
-from roughfilm.windows.asked import Asked
-from roughfilm.windows.quantities import Row
+from roughfilm.sampling.asked import Asked
+from roughfilm.sampling.quantities import Row
 
 ROWS = "rows"
 """The directory of the rows in that of a set of windows."""
@@ -46,7 +46,7 @@ def identity_of(cell: Surface, asked: Asked) -> str:
 
 @cache
 def _circumstances() -> tuple[str, str, Mapping[str, str]]:
-    return code(), imported_code("roughfilm.windows.quantities"), versions()
+    return code(), imported_code("roughfilm.sampling.quantities"), versions()
 
 
 def row_path(directory: Path, identity: str) -> Path:

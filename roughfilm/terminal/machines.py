@@ -1,13 +1,11 @@
-"""The machines on which many computations run: options of the commands, and the workers that they name."""
+"""Options of the commands that name the machines on which many computations run."""
 
-from contextlib import AbstractContextManager, nullcontext
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from roughfilm.batch.cluster import Cluster, dask
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import to_si
 
@@ -36,13 +34,8 @@ Keys = Annotated[
 Wait = Annotated[str, typer.Option("--wait", metavar="TIME", help="End if the scheduler has no workers for this time.")]
 
 
-def cluster_of(
-    executor: Where, scheduler: str | None, tls: Path | None, wait: str
-) -> AbstractContextManager[Cluster | None]:
-    """The workers of the scheduler that the options name; None for processes of this machine.
-
-    Raises InputError if the options do not fit together.
-    """
+def waiting_time(executor: Where, scheduler: str | None, tls: Path | None, wait: str) -> float:
+    """The time to wait for workers, s; InputError if the options do not fit together."""
     limit = _seconds(wait)
     if executor is Where.DASK and scheduler is None:
         raise InputError("--executor dask needs --scheduler ADDRESS")
@@ -50,7 +43,7 @@ def cluster_of(
         raise InputError(f"--scheduler: got {scheduler} with --executor local; add --executor dask")
     if tls is not None and scheduler is None:
         raise InputError(f"--tls: got {tls} with --executor {executor}; local takes none")
-    return nullcontext() if scheduler is None else dask(scheduler, wait=limit, tls=tls)
+    return limit
 
 
 def _seconds(wait: str) -> float:

@@ -24,7 +24,7 @@ from roughfilm.rom.ladder.model import silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.seal.scene import Seal
-from roughfilm.windows.asked import Asked, with_cell
+from roughfilm.sampling.asked import Asked, with_cell
 
 LEFT_OUT = ("Std", "sealed", "smooth_leakage", "dimensionless_leakage", "area_fraction_pixel", "A21")
 """Quantities that are left out: angles do not average, sealed windows leak nothing, and the others follow from some."""

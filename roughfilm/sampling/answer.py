@@ -3,21 +3,20 @@
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
 
 from roughfilm.contact.foundation.brief import brief
-from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.windows.scatter import MIN_INDEPENDENT, Scatter, scatter, windows_needed
 from roughfilm.contact.windows.size_trend import SizeTrend, Verdict, growth_of, size_trend
-from roughfilm.windows.asked import Asked
-from roughfilm.windows.plan import DECAY_LENGTHS, Group, Plan
-from roughfilm.windows.quantities import Row
-from roughfilm.windows.run import Rows
-from roughfilm.words.numbers import finite_entries
+from roughfilm.sampling.asked import Asked
+from roughfilm.sampling.plan import DECAY_LENGTHS, Group, Plan
+from roughfilm.sampling.quantities import Row
+from roughfilm.sampling.run import Rows
 
 SIGNED = ("Ssk", "Rsk", "A12", "B2")
 """Quantities of either sign, whose scatter is not that of their logarithms."""
@@ -73,6 +72,7 @@ class Answer:
     headline : name of the quantity that is sought most.
     quantities : by name, that of the headline first.
     tolerance : relative tolerance for which ``needed`` counts windows.
+    cells : periodic cells of the largest windows.
     warnings : sentences.
     """
 
@@ -83,6 +83,7 @@ class Answer:
     headline: str
     quantities: Mapping[str, WindowQuantity]
     tolerance: float
+    cells: tuple[Surface, ...]
     warnings: tuple[str, ...]
 
     __repr__ = brief
@@ -93,15 +94,15 @@ def answer_of(plan: Plan, asked: Asked, rows: Rows, tolerance: float) -> Answer:
 
     Raises
     ------
-    ConvergenceError
+    InputError, ConvergenceError
         If none of the largest windows has an answer.
     """
     main, own = plan.groups[0], rows.by_group[0]
     failures = [row.failure for row in own if row.failure is not None]
     if len(failures) == len(own):
-        raise ConvergenceError(f"windows: none has an answer; the first: {failures[0].message}")
-    heights = [float(np.mean([cell.heights.std() for cell in group.cells])) for group in plan.groups]
-    growth = growth_of([group.size for group in plan.groups], heights)
+        kind = InputError if failures[0].kind == InputError.__name__ else ConvergenceError
+        raise kind(f"no window has an answer; the first: {failures[0].message}")
+    growth = growth_of([group.size for group in plan.groups], [group.rms_height for group in plan.groups])
     names = dict.fromkeys([asked.headline, *(name for row in own for name in row.quantities)])
     quantities = {
         name: found
@@ -116,6 +117,7 @@ def answer_of(plan: Plan, asked: Asked, rows: Rows, tolerance: float) -> Answer:
         headline=asked.headline if asked.headline in quantities else next(iter(quantities)),
         quantities=quantities,
         tolerance=tolerance,
+        cells=main.cells,
         warnings=(),
     )
     return replace(answer, warnings=tuple(_warnings(plan, rows, answer)))
@@ -157,25 +159,26 @@ def _quantity(
 def _drift(name: str, group: Group, rows: Sequence[Row], main: Scatter) -> float:
     """The smaller probability of the difference between the halves of the measurement in x, and in y, by chance.
 
-    The halves have as many independent windows as their part of all; t is that of two samples of equal variance.
+    The halves have as many independent windows as their part of all; t is that of two samples of equal variance, which
+    is that within the halves.
     """
     if not group.windows or main.independent < 2 * MIN_INDEPENDENT or main.deviation == 0:
         return math.nan
     some = [number for number, row in enumerate(rows) if name in row.quantities]
     values = np.array([rows[number].quantities[name].value for number in some])
-    least = math.nan
+    found = [math.nan]
     for axis in (0, 1):
         places = np.array([group.windows[number].start[axis] for number in some])
         first = places < np.median(places)
-        if not 0 < first.sum() < len(first):
+        worth = [main.independent * part.mean() for part in (first, ~first)]
+        if min(worth) < 2:
             continue
-        parts = [main.independent * part.mean() for part in (first, ~first)]
-        if min(parts) < 2:
-            continue
-        t = abs(values[first].mean() - values[~first].mean()) / (main.deviation * math.sqrt(sum(1 / n for n in parts)))
-        by_chance = 2 * float(scipy.special.stdtr(sum(parts) - 2, -t))
-        least = by_chance if math.isnan(least) else min(least, by_chance)
-    return least
+        within = float(np.mean((values - np.where(first, values[first].mean(), values[~first].mean())) ** 2))
+        deviation = math.sqrt(within / (1 - 2 / main.independent))
+        difference = abs(values[first].mean() - values[~first].mean())
+        t = difference / (deviation * math.sqrt(sum(1 / n for n in worth))) if deviation > 0 else math.inf
+        found.append(2 * float(scipy.special.stdtr(sum(worth) - 2, -t)))
+    return float(np.fmin.reduce(found))
 
 
 def _warnings(plan: Plan, rows: Rows, answer: Answer) -> Iterator[str]:
@@ -226,43 +229,3 @@ def _warnings(plan: Plan, rows: Rows, answer: Answer) -> Iterator[str]:
 def _without_numbers(sentence: str) -> str:
     """A sentence without its numbers, so that those of different windows are counted together."""
     return "".join(" " if one.isdigit() or one in ".-" else one for one in sentence)
-
-
-def entries_of(answer: Answer) -> dict[str, Any]:
-    """The answer as entries that JSON can hold."""
-    entries: dict[str, Any] = finite_entries(
-        {
-            "surface": answer.name,
-            "headline": answer.headline,
-            "size": answer.size,
-            "windows": answer.count,
-            "independent": answer.independent,
-            "tolerance": answer.tolerance,
-            "quantities": {name: _quantity_entries(one) for name, one in answer.quantities.items()},
-        }
-    )
-    return entries
-
-
-def _quantity_entries(one: WindowQuantity) -> dict[str, Any]:
-    trend = {name: _listed(value) for name, value in asdict(one.trend).items()}
-    return {
-        "value": one.scatter.mean,
-        "unit": one.unit,
-        "uncertainty": one.scatter.mean_uncertainty,
-        "numerical_uncertainty": one.numerical,
-        "windows_needed": one.needed,
-        "windows_lacking": one.lacking,
-        "drift_by_chance": one.drift,
-        "scatter": _scatter_entries(one.scatter),
-        "trend": trend,
-        "by_size": [{"size": size, **_scatter_entries(found)} for size, found in one.by_size.items()],
-    }
-
-
-def _scatter_entries(found: Scatter) -> dict[str, Any]:
-    return {name: _listed(value) for name, value in vars(found).items()} | {"mean_uncertainty": found.mean_uncertainty}
-
-
-def _listed(value: Any) -> Any:
-    return value.tolist() if isinstance(value, np.ndarray) else value

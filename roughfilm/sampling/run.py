@@ -10,10 +10,10 @@ from roughfilm.batch.execute import CHUNK_S, Workers, answered, lost
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import code, versions
-from roughfilm.windows.asked import Asked
-from roughfilm.windows.plan import Plan
-from roughfilm.windows.quantities import Row, row_of, rows_of
-from roughfilm.windows.rows import identity_of, remove_other_rows, store_row, stored_row
+from roughfilm.sampling.asked import Asked
+from roughfilm.sampling.plan import Plan
+from roughfilm.sampling.quantities import Row, row_of, rows_of
+from roughfilm.sampling.rows import identity_of, remove_other_rows, store_row, stored_row
 
 COST_S = {"": (1e-2, 2e-6), "dry_contact": (2e-2, 6e-7), "seal": (3e-2, 2e-6), "bearing": (20.0, 3e-4)}
 """Expected CPU time of a window by the kind of scene: that of none, and that of each point, s."""

@@ -1,0 +1,111 @@
+"""Windows are prepared alike, keep the pixels of the measurement, and are refused where they do not fit."""
+
+import numpy as np
+import pytest
+from small_scenes import SEEDS
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.preparation.prepare import prepare
+from roughfilm.contact.preparation.recipe import load_recipe
+from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.synthetic.description import make, read_entries
+from roughfilm.sampling.plan import USUAL, planned
+
+MEASURED = {
+    "kind": "gaussian",
+    "size": ["0.4 mm", "0.3 mm"],
+    "points": [200, 144],
+    "seed": 5,
+    "rms_height": "1 um",
+    "correlation_length": "10 um",
+    "amplitudes": "random",
+}
+
+
+def plan_of(given, *, set_=(), **options):
+    options = {"count": 6, "size": 1e-4, "sizes": [], "name": "m", **options}
+    return planned(given, load_recipe(None, set_, USUAL), progress=lambda *_: None, **options)
+
+
+@pytest.fixture(scope="module")
+def measured():
+    return make(read_entries(MEASURED)).with_heights(make(read_entries(MEASURED)).heights, periodic=False)
+
+
+def test_windows_keep_the_pixels_and_come_in_three_sizes(measured):
+    plan = plan_of(measured, size=1.4e-4)
+    assert [group.cells[0].shape for group in plan.groups] == [(72, 64), (32, 32)]
+    assert [cell.spacing for group in plan.groups for cell in group.cells] == [measured.spacing] * 12
+    assert plan.groups[0].size == pytest.approx(64 * measured.spacing[1])
+    assert plan.warnings == ("windows of 35 µm are left out: fewer than 32 pixels along a side",)
+
+
+def test_a_window_is_prepared_as_the_recipe_prepares_it(measured):
+    """The same cell as that of `prepare` with this window and the edges that were chosen for the whole."""
+    plan = plan_of(measured, set_=["smoothing=1"])
+    window, cell = plan.groups[0].windows[3], plan.groups[0].cells[3]
+    start, size = (
+        [n * step for n, step in zip(pair, measured.spacing, strict=True)] for pair in (window.start, window.shape)
+    )
+    direction = plan.source["recipe"]["edges"]["direction"]
+    recipe = load_recipe(
+        None,
+        ["smoothing=1"],
+        {
+            **USUAL,
+            "edges": {"direction": direction},
+            "window": {"start": [f"{x} m" for x in start], "size": [f"{x} m" for x in size]},
+        },
+    )
+    assert np.array_equal(prepare(measured, recipe).surface.heights, cell.heights)
+
+
+def test_the_direction_of_the_edges_is_that_of_the_whole_surface():
+    lay = make(read_entries(MEASURED | {"anisotropy": 8}))
+    plan = plan_of(lay.with_heights(lay.heights, periodic=False), count=9)
+    directions = {cell.source["record"]["edges"]["direction"] for group in plan.groups for cell in group.cells}
+    assert directions == {"x"}
+
+
+def test_seeds_of_a_description_keep_its_spacing_and_differ(tmp_path):
+    path = tmp_path / "rough.toml"
+    path.write_text(SEEDS)
+    plan = plan_of(path, count=3, size=8e-5, sizes=[4e-5])
+    assert [group.seeds for group in plan.groups] == [(20071, 20072, 20073), (120071, 120072, 120073)]
+    assert [group.cells[0].shape for group in plan.groups] == [(64, 64), (32, 32)]
+    assert {cell.spacing for group in plan.groups for cell in group.cells} == {(1.25e-6, 1.25e-6)}
+    assert len({cell.heights.tobytes() for cell in plan.groups[0].cells}) == 3
+    assert np.array_equal(plan.groups[1].cells[0].heights.shape, (32, 32))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"size": 1e-3}, "size: got 1000 µm; the measurement is 300 µm wide, take less"),
+        ({"size": 4e-5}, "size: got 40 µm, which is 16 pixels; a window has at least 32 along each side"),
+        ({"sizes": [4e-4]}, "sizes: got 400 µm; the measurement is 300 µm wide"),
+        ({"size": -1.0}, "size: got -1.0 m; give lengths above 0"),
+        ({"count": 0}, "windows: got 0; take 1 to 10000"),
+        ({"set_": ['window.size=["0.1 mm", "0.1 mm"]']}, "window: is set; the windows are chosen here"),
+    ],
+)
+def test_windows_that_cannot_be_are_refused(measured, options, message):
+    with pytest.raises(InputError, match=message):
+        plan_of(measured, **options)
+
+
+def test_a_description_without_a_seed_is_refused(tmp_path):
+    path = tmp_path / "wave.toml"
+    path.write_text('kind = "sinusoid"\nsize = ["1 mm", "1 mm"]\npoints = [32, 32]\namplitude = "1 um"\n')
+    with pytest.raises(InputError, match="got 'sinusoid', which has no seed; all its windows are the same"):
+        plan_of(path)
+
+
+def test_the_default_size_is_five_decay_lengths_and_at_most_half_of_the_measurement(measured):
+    rng = np.random.default_rng(1)
+    plan = plan_of(measured, size=None, count=1)
+    assert plan.groups[0].size == pytest.approx(1.5e-4, rel=0.05)
+    rough = Surface(heights=1e-6 * rng.normal(size=(256, 256)), spacing=(1e-6, 1e-6))
+    plan = plan_of(rough, size=None, count=16)
+    assert plan.groups[0].cells[0].shape == (64, 64)
+    assert plan.groups[0].independent == pytest.approx(16, rel=0.01)
