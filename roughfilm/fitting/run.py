@@ -12,7 +12,8 @@ from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.preparation.recipe import Recipe
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.contact.synthetic.description import RandomField, make
+from roughfilm.contact.synthetic.description import RandomField, make, read_description
+from roughfilm.contact.windows.places import independent_windows
 from roughfilm.fitting.findings import Finding, findings_of, structure_of
 from roughfilm.fitting.judge import Held, halves, held_out, seeds_of
 from roughfilm.fitting.quantities import load_at_area, quantities_of, refuse_area
@@ -132,6 +133,8 @@ def fit_windows(
     if size is None and isinstance(given, Surface):
         least = MIN_PIXELS * max(given.spacing)
         size = max(side_of_squares(given.size, count), min(least, *given.size))
+    elif size is None and isinstance(given, Path):
+        size = min(read_description(given).size)
     plan = planned(
         given,
         recipe,
@@ -158,11 +161,9 @@ def fit_windows(
     measured = np.array(windows)
     if not np.isfinite(measured).any():
         raise ConvergenceError(f"{name}: no window has a contact; look at the surface")
-    parts = halves(len(cells), 0)
-    held, _ = held_out(
-        cells, measured, load, parts=parts, seeds=seeds, independent=group.independent, progress=count_one
-    )
-    description = fit_random_field(cells, group.independent)
+    parts, worth = halves(len(cells), 0), independent_windows(group.windows) if group.windows else float(len(cells))
+    held, _ = held_out(cells, measured, load, parts=parts, seeds=seeds, independent=worth, progress=count_one)
+    description = fit_random_field(cells, worth)
     of_seeds = seeds_of(description, seeds, load, count_one)
     structure = structure_of(cells, load, count_one)
     findings = findings_of(group, measured, structure)

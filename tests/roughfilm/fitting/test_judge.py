@@ -57,7 +57,7 @@ def test_seeds_hold_the_windows_of_a_random_field(windows):
 
 def test_a_random_field_lacks_nothing(windows):
     cells, load, values = windows
-    group = Group(size=1e-4, cells=cells, independent=float(COUNT))
+    group = Group(size=1e-4, cells=cells, independent=float(COUNT), rms_height=1e-6)
     found = findings_of(group, values, structure_of(cells, load, quiet))
     assert [one.name for one in found if one.lacking] == []
     assert [one.name for one in found] == ["spread"]
@@ -74,7 +74,9 @@ def test_grooves_are_named_with_their_wavelength():
     )
     load = load_at_area(cells, 0.1)
     values = np.array([quantities_of(cell, load) for cell in cells])
-    found = findings_of(Group(size=3.2e-5, cells=cells, independent=16.0), values, structure_of(cells, load, quiet))
+    found = findings_of(
+        Group(size=3.2e-5, cells=cells, independent=16.0, rms_height=1e-6), values, structure_of(cells, load, quiet)
+    )
     (grooves,) = (one for one in found if one.name == "grooves")
     assert grooves.lacking
     assert "waves of 8 µm along 90°" in grooves.text
@@ -127,8 +129,14 @@ def test_numbers_out_of_range_are_refused(entries, words):
 def test_windows_that_share_points_are_known():
     def group(*starts: tuple[int, int]) -> Group:
         windows = tuple(Window(start=start, shape=(32, 32)) for start in starts)
-        return Group(size=3.2e-5, cells=tuple(map(cell_of, range(len(starts)))), windows=windows, independent=2.0)
+        return Group(
+            size=3.2e-5,
+            cells=tuple(map(cell_of, range(len(starts)))),
+            windows=windows,
+            independent=2.0,
+            rms_height=1e-6,
+        )
 
     assert not overlap(group((0, 0), (32, 0), (0, 32)))
     assert overlap(group((0, 0), (31, 31)))
-    assert not overlap(Group(size=1e-4, cells=(cell_of(0),), independent=1.0))
+    assert not overlap(Group(size=1e-4, cells=(cell_of(0),), independent=1.0, rms_height=1e-6))
