@@ -162,7 +162,8 @@ def _nearest(points: int, numbers: Sequence[int]) -> NDArray[np.intp]:
     """The entry of the table nearest to each frequency of a transform; -1 for frequencies beyond it."""
     frequency = np.rint(scipy.fft.fftfreq(points, 1 / points))
     entries = np.array(numbers, dtype=float)
-    nearest = np.abs(frequency[:, None] - entries).argmin(axis=1)
+    distance = np.abs(frequency[:, None] - entries) + 1e-6 * np.abs(entries)  # the longer wave of two as near
+    nearest = distance.argmin(axis=1)
     return np.where((frequency >= entries[0]) & (frequency <= entries[-1]), nearest, -1)
 
 

@@ -4,10 +4,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from roughfilm.contact.foundation.toml import toml_value
+from roughfilm.contact.foundation.writing.kinds import beginning_with
 from roughfilm.contact.synthetic.description import RandomField, description_entries
 
 BEGINS = "# A random field fitted by roughfilm fit.\n"
 """First line of the file, by which it is recognised."""
+
+DESCRIPTION = beginning_with("a description of roughfilm fit", BEGINS.encode())
+"""The kind of the file."""
 
 COMMENTS = {
     "spectrum": "mean power of single waves by their wave numbers, decibels: rows n of waves_y, columns -m and m of "

@@ -23,7 +23,7 @@ MIN_WINDOWS = 4.0
 MAX_CHANGE = 8.0
 """Largest change of a logarithm from its mean; it bounds what few windows may extrapolate to."""
 
-ITERATIONS = 40
+ITERATIONS = 20
 """Largest number of iterations that bring spectrum and heights together."""
 
 DECIBEL = math.log(10) / 10

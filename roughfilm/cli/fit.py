@@ -8,21 +8,21 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from roughfilm.contact.fitting.text import BEGINS, description_text
+from roughfilm.contact.fitting.text import DESCRIPTION, description_text
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import to_si
-from roughfilm.contact.foundation.writing.kinds import PAGE, beginning_with
+from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.preparation.recipe import load_recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.fitting.run import AREA, COUNT, SEEDS, entries_of, fit_windows
+from roughfilm.fitting.run import AREA, COUNT, SEEDS, fit_windows
 from roughfilm.sampling.plan import USUAL
 from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, progress_bar
 from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
-from roughfilm.words.fit import HEADS, headline, length, notes, rows
+from roughfilm.words.fit import HEADS, entries_of, headline, length, notes, rows
 
 EXAMPLES = (
     "roughfilm fit measured.x3p --out fitted.toml --report fitted.html",
@@ -30,9 +30,6 @@ EXAMPLES = (
 )
 
 SOURCES = ("10.1103/PhysRevLett.77.635", "A. Gelman et al., Bayesian Data Analysis, section 3.6")
-
-DESCRIPTION = beginning_with("a description of roughfilm fit", BEGINS.encode())
-"""The file that is written."""
 
 COMPUTED = 0.97
 """Done fraction before the page is drawn."""

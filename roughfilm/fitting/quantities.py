@@ -43,6 +43,12 @@ def quantities_of(cell: Surface, load: float) -> Array:
     return np.array([load / contact.area_fraction, contact.mean_gap, *flows])
 
 
+def refuse_area(area: float) -> None:
+    """Raise InputError unless a contact area fraction is 0.1 % to 90 %."""
+    if not 0.001 <= area <= 0.9:
+        raise InputError(f"area: got {area!r}; give a fraction of 0.1 % to 90 %")
+
+
 def load_at_area(cells: Sequence[Surface], area: float) -> float:
     """The mean pressure over E* at which the mean contact area fraction of cells has a value between 0 and 1.
 
@@ -51,8 +57,7 @@ def load_at_area(cells: Sequence[Surface], area: float) -> float:
     InputError
         If the fraction is out of range.
     """
-    if not 0.001 <= area <= 0.9:
-        raise InputError(f"area: got {area!r}; give a fraction of 0.1 % to 90 %")
+    refuse_area(area)
     some = cells[:: max(1, len(cells) // SAMPLE)]
     slope = float(np.mean([wave_power(cell.heights, cell.spacing).moments.rms_slope for cell in some]))
     bodies = [Press(cell.heights, cell.spacing, 1.0) for cell in some]

@@ -1,9 +1,8 @@
 """The fit of a description to the windows of a surface, and its judgement."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -13,13 +12,13 @@ from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.preparation.recipe import Recipe
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.contact.synthetic.description import RandomField, description_entries, make
+from roughfilm.contact.synthetic.description import RandomField, make, read_description
+from roughfilm.contact.windows.places import independent_windows
 from roughfilm.fitting.findings import Finding, findings_of, structure_of
 from roughfilm.fitting.judge import Held, halves, held_out, seeds_of
-from roughfilm.fitting.quantities import load_at_area, quantities_of
+from roughfilm.fitting.quantities import load_at_area, quantities_of, refuse_area
 from roughfilm.rom.ladder.model import Progress
-from roughfilm.sampling.plan import Group, Plan, planned
-from roughfilm.words.numbers import finite_entries
+from roughfilm.sampling.plan import MIN_PIXELS, Group, Plan, planned
 
 COUNT = 48
 """Default number of windows."""
@@ -77,6 +76,10 @@ class Fit:
         """The windows."""
         return self.plan.groups[0]
 
+    def surface_of(self, seed: int) -> Surface:
+        """The surface of a seed, 0 or more."""
+        return make(self.description.model_copy(update={"seed": seed}))
+
 
 def side_of_squares(size: tuple[float, float], count: int) -> float:
     """The side of the largest squares of which ``count`` fit into a rectangle in rows and columns, m."""
@@ -108,7 +111,8 @@ def fit_windows(
     given : measured surface, or the TOML file of a description.
     recipe : recipe of the preparation of windows.
     count : number of windows, 16 or more.
-    size : side of the windows, m; by default that of the largest squares of which ``count`` fit without overlap.
+    size : side of the windows, m; by default that of the largest squares of which ``count`` fit without overlap, but at
+        least 32 pixels.
     area : mean contact area fraction at which windows and seeds are compared.
     seeds : number of seeds of each fit, 40 or more.
     name : name for people.
@@ -125,8 +129,12 @@ def fit_windows(
         raise InputError(f"windows: got {count}; a fit and its judgement need {MIN_COUNT} or more")
     if seeds < 40:
         raise InputError(f"seeds: got {seeds}; a 95 % interval needs 40 or more")
+    refuse_area(area)
     if size is None and isinstance(given, Surface):
-        size = side_of_squares(given.size, count)
+        least = MIN_PIXELS * max(given.spacing)
+        size = max(side_of_squares(given.size, count), min(least, *given.size))
+    elif size is None and isinstance(given, Path):
+        size = min(read_description(given).size)
     plan = planned(
         given,
         recipe,
@@ -153,11 +161,9 @@ def fit_windows(
     measured = np.array(windows)
     if not np.isfinite(measured).any():
         raise ConvergenceError(f"{name}: no window has a contact; look at the surface")
-    parts = halves(len(cells), 0)
-    held, _ = held_out(
-        cells, measured, load, parts=parts, seeds=seeds, independent=group.independent, progress=count_one
-    )
-    description = fit_random_field(cells, group.independent)
+    parts, worth = halves(len(cells), 0), independent_windows(group.windows) if group.windows else float(len(cells))
+    held, _ = held_out(cells, measured, load, parts=parts, seeds=seeds, independent=worth, progress=count_one)
+    description = fit_random_field(cells, worth)
     of_seeds = seeds_of(description, seeds, load, count_one)
     structure = structure_of(cells, load, count_one)
     findings = findings_of(group, measured, structure)
@@ -178,6 +184,11 @@ def fit_windows(
 
 def _warnings(plan: Plan, held: Mapping[str, Held], findings: tuple[Finding, ...]) -> list[str]:
     warnings = list(plan.warnings)
+    if overlap(plan.groups[0]):
+        warnings.append(
+            "windows overlap, so that those held out share points with those fitted, and the judgement is too good; "
+            "take fewer or smaller windows"
+        )
     failing = [f"{name}: {held_in_words(one)}" for name, one in held.items() if one.fails]
     if failing:
         reasons = [one.text for one in findings if one.lacking]
@@ -186,27 +197,17 @@ def _warnings(plan: Plan, held: Mapping[str, Held], findings: tuple[Finding, ...
     return warnings
 
 
+def overlap(group: Group) -> bool:
+    """Whether two windows share points."""
+    starts = np.array([window.start for window in group.windows])
+    if not len(starts):
+        return False
+    apart = np.abs(starts[:, None] - starts)
+    shared = (apart < group.windows[0].shape).all(axis=2)
+    return int(shared.sum()) > len(starts)
+
+
 def held_in_words(one: Held) -> str:
     """How many held-out windows are inside, and where the others are."""
     outside = [f"{number} {where}" for number, where in ((one.below, "below"), (one.above, "above")) if number]
     return f"{one.inside} of {one.count} held-out windows inside" + (f", {' and '.join(outside)}" if outside else "")
-
-
-def entries_of(fit: Fit) -> dict[str, Any]:
-    """The fit as entries that JSON can hold, in SI units; permeabilities are in m³, pressures over E*."""
-    entries: dict[str, Any] = finite_entries(
-        {
-            "surface": fit.name,
-            "size": fit.group.size,
-            "independent": fit.group.independent,
-            "area": fit.area,
-            "load": fit.load,
-            "held": {
-                name: {**asdict(one), "fails": one.fails, "windows": windows.tolist(), "seeds": seeds.tolist()}
-                for (name, one), windows, seeds in zip(fit.held.items(), fit.windows.T, fit.seeds.T, strict=True)
-            },
-            "findings": [asdict(one) for one in fit.findings],
-            "description": description_entries(fit.description),
-        }
-    )
-    return entries

@@ -9,7 +9,7 @@ from roughfilm.contact.parameters.definitions import AREAL, GROUPS
 from roughfilm.contact.preparation.prepare import Prepared
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD
 from roughfilm.figures import surface as surface_figures
-from roughfilm.figures.relief import surface_picture
+from roughfilm.figures.spatial.relief import surface_picture
 from roughfilm.pages.render import render
 from roughfilm.words.numbers import in_unit, percent
 from roughfilm.words.surface import preparation_steps, scale_limits

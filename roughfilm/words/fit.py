@@ -2,10 +2,13 @@
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import asdict
+from typing import Any
 
-from roughfilm.fitting.judge import Held
+from roughfilm.contact.synthetic.description import description_entries
 from roughfilm.fitting.quantities import NAMES
 from roughfilm.fitting.run import Fit
+from roughfilm.words.numbers import finite_entries
 from roughfilm.words.scales import Scale, scale_for
 
 UNITS = ("Pa", "m", "m^3", "m^3")
@@ -63,11 +66,6 @@ def middle(values: Iterable[float]) -> float:
     return (known[(len(known) - 1) // 2] + known[len(known) // 2]) / 2
 
 
-def misses(held: Held) -> str:
-    """Whether the seeds hold a quantity, as one word."""
-    return "no" if held.fails else "yes"
-
-
 def length(value: float) -> str:
     """A length in the unit that its size chooses."""
     scale: Scale = scale_for("m", value)
@@ -83,3 +81,23 @@ def notes(fit: Fit) -> tuple[str, ...]:
         *(f"Lacks: {one.text}." for one in fit.findings if one.lacking),
         "Another seed is another window; see roughfilm.contact.synthetic.random_field.",
     )
+
+
+def entries_of(fit: Fit) -> dict[str, Any]:
+    """The fit as entries that JSON can hold, in SI units; permeabilities are in m³, pressures over E*."""
+    entries: dict[str, Any] = finite_entries(
+        {
+            "surface": fit.name,
+            "size": fit.group.size,
+            "independent": fit.group.independent,
+            "area": fit.area,
+            "load": fit.load,
+            "held": {
+                name: {**asdict(one), "fails": one.fails, "windows": windows.tolist(), "seeds": seeds.tolist()}
+                for (name, one), windows, seeds in zip(fit.held.items(), fit.windows.T, fit.seeds.T, strict=True)
+            },
+            "findings": [asdict(one) for one in fit.findings],
+            "description": description_entries(fit.description),
+        }
+    )
+    return entries

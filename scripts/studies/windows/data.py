@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.files import file_digest, read_surface
+from roughfilm.contact.windows.places import independent_windows
 from roughfilm.fitting.findings import findings_of, structure_of
 from roughfilm.fitting.judge import halves, held_out
 from roughfilm.fitting.quantities import NAMES, load_at_area, quantities_of
@@ -34,7 +35,7 @@ SURFACES: Mapping[str, Mapping[str, Any]] = {
 BAD = ("polished_with_spikes.sur", "stitching_artefacts.txt")
 """Measurements with artefacts."""
 
-WINDOWS, POINTS, SEEDS = 48, 64, 120
+WINDOWS, POINTS, SEEDS = 48, 64, 100
 """Number of windows of a measurement, points along a side of each cell, and seeds of each fit."""
 
 AREAS = (0.1, 0.05)
@@ -139,7 +140,7 @@ def _examine(file: Path, area: float, advance: Callable[[str], None]) -> Examine
                 load,
                 parts=part,
                 seeds=SEEDS,
-                independent=group.independent,
+                independent=independent_windows(group.windows),
                 progress=partial(_advance, advance, f"{file.name}, {kind} halves"),
             )[0]
             for part in parts
