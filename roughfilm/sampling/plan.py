@@ -11,7 +11,6 @@ import numpy as np
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
-from roughfilm.contact.preparation.edges.join import width_limits
 from roughfilm.contact.preparation.prepare import Levelled, cell_of, level
 from roughfilm.contact.preparation.recipe import Recipe, recipe_entries
 from roughfilm.contact.preparation.window import Window
@@ -147,7 +146,7 @@ def _of_measurement(
     found = decay_lengths(autocorrelation(filled), filled.spacing)
     largest = _largest(surface, count, found.shortest) if size is None else size
     shapes, warnings = _shapes(surface, largest, sizes)
-    recipe = _with_one_edge(levelled, recipe, shapes)
+    recipe = _with_one_edge(levelled, recipe, shapes[-1])
     groups, done = [], 0
     for shape in shapes:
         places = window_places(surface.shape, shape, count)
@@ -175,24 +174,21 @@ def _of_measurement(
     )
 
 
-def _with_one_edge(levelled: Levelled, recipe: Recipe, shapes: Sequence[tuple[int, int]]) -> Recipe:
-    """The recipe with the same edges for all windows: the width of the largest, and blended along one direction.
+def _with_one_edge(levelled: Levelled, recipe: Recipe, smallest: tuple[int, int]) -> Recipe:
+    """The recipe with one direction and one width of blended edges for all windows: the width of the smallest window.
 
-    With a width in proportion to the window, the margin would be the same part of windows of all sizes, and its effect
-    would not vanish on the whole surface.
+    A blended margin lowers the rms height. With a width in proportion to the window it would be the same part of any
+    window, and its effect would not vanish on the whole surface. Seams keep the rms height, at any width.
     """
-    chosen = recipe.edges
-    if chosen.method == "blended":
-        whole = cell_of(levelled, recipe, Window(start=(0, 0), shape=levelled.original.shape))
-        chosen = chosen.model_copy(update={"direction": whole.record["edges"]["direction"]})
-    if chosen.width is None:
-        (place,) = window_places(levelled.original.shape, shapes[0], 1)
-        own = max(cell_of(levelled, recipe.model_copy(update={"edges": chosen}), place).record["edges"]["width"])
-        steps = levelled.original.spacing
-        limits = [*zip(width_limits(chosen, shapes[-1]), steps, strict=True)]
-        most, least = min(most * step for (_, most), step in limits), max(least * step for (least, _), step in limits)
-        chosen = chosen.model_copy(update={"width": max(min(own, most), least)})
-    return recipe.model_copy(update={"edges": chosen})
+    if recipe.edges.method != "blended":
+        return recipe
+    whole, small = (
+        cell_of(levelled, recipe, Window(start=(0, 0), shape=shape)).record["edges"]
+        for shape in (levelled.original.shape, smallest)
+    )
+    width = recipe.edges.width or min(small["width"])
+    edges = recipe.edges.model_copy(update={"direction": whole["direction"], "width": width})
+    return recipe.model_copy(update={"edges": edges})
 
 
 def _cell(levelled: Levelled, recipe: Recipe, window: Window) -> Surface:

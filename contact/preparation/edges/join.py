@@ -105,17 +105,11 @@ def _width(surface: Surface, correlation_length: float, edges: Edges) -> tuple[f
     """The default width along x and y, m, limited to the range that the pixels allow."""
     side = min(surface.size)
     usual = min(max(WIDTH * correlation_length, MIN_WIDTH_OF_SIDE * side), MAX_WIDTH_OF_SIDE * side)
-    x, y = (
-        max(min(usual, most * step), least * step)
-        for (least, most), step in zip(width_limits(edges, surface.shape), surface.spacing, strict=True)
+    least, most = (
+        (blending.MIN_WIDTH, blending.largest_width) if edges.method == "blended" else (0.0, seams.largest_width)
     )
-    return x, y
-
-
-def width_limits(edges: Edges, shape: tuple[int, int]) -> tuple[tuple[float, float], tuple[float, float]]:
-    """The least and the largest width, pixels, along x and along y of a window of a shape."""
-    if edges.method == "blended":
-        x, y = ((blending.MIN_WIDTH, blending.largest_width(count)) for count in shape)
-    else:
-        x, y = ((0.0, seams.largest_width(count)) for count in shape)
+    x, y = (
+        max(min(usual, most(count) * step), least * step)
+        for count, step in zip(surface.shape, surface.spacing, strict=True)
+    )
     return x, y
