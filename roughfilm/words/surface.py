@@ -26,14 +26,14 @@ def preparation_steps(prepared: Prepared) -> list[str]:
         f"window: {window['pixels'][0]} x {window['pixels'][1]} pixels from {window['start']}, {size} µm": True,
         f"grid: {grid['points'][0]} x {grid['points'][1]} points": True,
         f"overlap: the window is shortened by {shortened} pixels, at which edges are joined": any(edges["shortened"]),
-        **dict.fromkeys(_edges(edges), edges["direction"] != "none"),
+        **dict.fromkeys(_edges(edges), edges["changed"] != "none"),
         f"smoothing: {recipe['smoothing']} points": recipe["smoothing"] > 1,
     }
     return [line for line, changed in steps.items() if changed]
 
 
 def _edges(edges: Mapping[str, Any]) -> tuple[str, str]:
-    joined = "in both directions" if edges["direction"] == "both" else f"along {edges['direction']}"
+    joined = "in both directions" if edges["changed"] == "both" else f"along {edges['changed']}"
     width = " x ".join(f"{length * 1e6:.4g}" for length in edges["width"])
     means = "along seams" if edges["method"] == "seams" else f"by a filter {width} µm wide"
     other = "others beside a seam" if edges["method"] == "seams" else "a smooth copy"

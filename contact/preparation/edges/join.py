@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, Literal
 
 from roughfilm.contact.foundation.arrays import Mask
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
@@ -33,7 +33,7 @@ NAMES: dict[tuple[bool, bool], Direction] = {
     (False, True): "y",
     (True, True): "both",
 }
-"""Direction by whether edges are joined along x and along y."""
+"""Direction by whether edges were changed along x and along y."""
 
 
 def join_edges(
@@ -54,7 +54,8 @@ def join_edges(
     cell : resampled, edges as measured.
     joined : ``cell`` with joined edges; weight and seams may be on the pixels of the measurement.
     window : that of the cell, which joining by seams may have shortened.
-    entries : method, direction, width (m), reason of the choice, the fraction of blended points and the mean weight.
+    entries : method, direction, that in which edges did not match and were changed, width (m), reason of the choice,
+        pixels by which the window was shortened, the fraction of blended points and the mean weight.
 
     Raises
     ------
@@ -65,16 +66,17 @@ def join_edges(
     if edges.method == "blended":
         cell = grid(windowed)
         direction, width, reason = _chosen(cell, edges)
-        joined = blend_edges(cell, direction, width=width)
+        joined, changed = blend_edges(cell, direction, width=width), direction
     else:
         direction, width, reason = _chosen(windowed, edges)
         joined, window = join_by_seams(surface, window, direction, width=width, filled=filled)
-        direction = NAMES[joined.seams[0] is not None, joined.seams[1] is not None]
         cell = grid(cut_window(surface, window))
         joined = replace(joined, surface=grid(joined.surface))
+        changed = NAMES[joined.seams[0] is not None, joined.seams[1] is not None]
     entries = {
         "method": edges.method,
         "direction": direction,
+        "changed": changed,
         "width": list(width),
         "reason": reason,
         "shortened": [before - after for before, after in zip(windowed.shape, window.shape, strict=True)],
@@ -105,11 +107,14 @@ def _width(surface: Surface, correlation_length: float, edges: Edges) -> tuple[f
     """The default width along x and y, m, limited to the range that the pixels allow."""
     side = min(surface.size)
     usual = min(max(WIDTH * correlation_length, MIN_WIDTH_OF_SIDE * side), MAX_WIDTH_OF_SIDE * side)
-    least, most = (
-        (blending.MIN_WIDTH, blending.largest_width) if edges.method == "blended" else (0.0, seams.largest_width)
-    )
+    least, most = width_limits(edges.method)
     x, y = (
         max(min(usual, most(count) * step), least * step)
         for count, step in zip(surface.shape, surface.spacing, strict=True)
     )
     return x, y
+
+
+def width_limits(method: Literal["seams", "blended"]) -> tuple[float, Callable[[int], float]]:
+    """The smallest width of a joint, pixels, and the largest one by the number of pixels of the window."""
+    return (blending.MIN_WIDTH, blending.largest_width) if method == "blended" else (0.0, seams.largest_width)
