@@ -25,6 +25,9 @@ Shift = tuple[float, float] | Literal["registered"]
 """Position of the first pixel of the second surface on the first one, m, or the one that registration finds."""
 
 
+MIN_CORRELATION = 0.95
+"""Correlation of the unworn points of both measurements below which a difference causes a warning."""
+
 WITHOUT_TILT: Mapping[str, Any] = {**AS_IT_IS, "form": "tilt"}
 """Entries of the recipe of surfaces that are not periodic; its steps up to the window are taken on both."""
 
@@ -86,7 +89,8 @@ def difference(
     Combined : quantities ``worn_volume_per_area`` (m; mean difference above its level), ``largest_depth`` (m; after a
         Gaussian filter of two pixels), ``worn_fraction``, ``noise`` (m; standard deviation of the difference over the
         unworn points), ``shift_x``, ``shift_y`` (m), ``correlation`` (of both over the points that are not worn), and
-        ``common_fraction`` (common valid points over those of the smaller surface).
+        ``common_fraction`` (common valid points over those of the smaller surface). A correlation below 0.95 causes a
+        warning.
 
     Raises
     ------
@@ -122,7 +126,7 @@ def difference(
         worn=wear.worn,
         quantities=quantities,
         record=record,
-        warnings=registration.warnings + wear.warnings,
+        warnings=(*registration.warnings, *_mismatch(quantities["correlation"].value), *wear.warnings),
     )
 
 
@@ -199,6 +203,15 @@ def composite(
         quantities=quantities,
         record=record,
         warnings=registration.warnings,
+    )
+
+
+def _mismatch(correlation: float) -> tuple[str, ...]:
+    if correlation >= MIN_CORRELATION:
+        return ()
+    return (
+        f"the unworn points of both measurements have a correlation of {correlation:.2f}, below {MIN_CORRELATION}: "
+        "rotation, magnification or noise hide the wear; align the specimen and measure again",
     )
 
 
