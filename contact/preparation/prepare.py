@@ -22,6 +22,7 @@ from roughfilm.contact.preparation.smoothing import smooth
 from roughfilm.contact.preparation.spikes import Spikes, find_spikes
 from roughfilm.contact.preparation.window import Window, best_window, cut_window
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 
 EDGE_WIDTH = 1 / 2
@@ -112,6 +113,7 @@ class Levelled:
     trusted : ``measured`` after clipping, with spikes and rims marked as invalid too, then the S- and the L-filter.
     filled : ``trusted`` with invalid points filled.
     record : data and changes of each step, as entries that JSON can hold.
+    warnings : sentences on units that may be wrong, and on nesting indices that pixels or sides do not support.
     """
 
     original: Surface
@@ -119,6 +121,7 @@ class Levelled:
     trusted: Surface
     filled: Surface
     record: Mapping[str, Any]
+    warnings: tuple[str, ...]
 
 
 def level(surface: Surface, recipe: Recipe) -> Levelled:
@@ -145,7 +148,14 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
         "filled": {"points": int(trusted.invalid.sum()), "fraction": float(trusted.invalid.mean())},
         "scale": {"form": recipe.form, "s_filter": recipe.s_filter, "l_filter": recipe.l_filter},
     }
-    return Levelled(original=surface, measured=measured, trusted=trusted, filled=filled, record=record)
+    return Levelled(
+        original=surface,
+        measured=measured,
+        trusted=trusted,
+        filled=filled,
+        record=record,
+        warnings=(*implausible(trusted), *nesting_warnings(surface, recipe.s_filter, recipe.l_filter)),
+    )
 
 
 def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) -> Prepared:
@@ -186,7 +196,7 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
         joined=joined,
         surface=smoothed.with_heights(smoothed.heights, source=source),
         record=record,
-        warnings=(*nesting_warnings(surface, recipe.s_filter, recipe.l_filter), *_warnings(record)),
+        warnings=(*levelled.warnings, *_warnings(record)),
     )
 
 

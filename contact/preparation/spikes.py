@@ -28,7 +28,10 @@ MIN_SURROUNDINGS = 96
 """Smallest number of these points, a tenth of all; a rim with fewer is kept."""
 
 RIM_FACTOR = 2.5
-"""Limit for rims, in standard deviations of the surroundings, over the limit for spikes, in spreads."""
+"""Standard deviations of the surroundings beyond which a rim deviates, over the limit in spreads."""
+
+MAX_RIMS = 3
+"""Largest number of rims around a region, each next to the one that was found before."""
 
 MIN_DEVIATION = 0.01
 """Smallest standard deviation of the surroundings, in units of the distance of the two quantiles."""
@@ -63,8 +66,10 @@ def find_spikes(surface: Surface, *, limit: float) -> Spikes:
     their height.
 
     A rim consists of the valid points within 3 pixels of an invalid point or a spike. A point of it deviates if it is
-    more than 2.5 ``limit`` standard deviations from the mean of the valid points within 15 pixels that belong to no
-    rim; it is kept if these are fewer than 96.
+    more than 2.5 ``limit`` standard deviations from the mean of the valid points within 15 pixels that belong to no rim
+    and lie within ``limit`` spreads of the median; it is kept if these are fewer than 96. Around a point that deviates,
+    rim points within 3 pixels deviate from ``limit`` standard deviations on; the points found are invalid for the next
+    rim, of up to 3.
 
     Parameters
     ----------
@@ -85,10 +90,12 @@ def find_spikes(surface: Surface, *, limit: float) -> Spikes:
     if limit == 0 or scale == 0:
         return Spikes(spikes=nothing, rims=nothing)
     heights = np.where(surface.invalid, 0.0, surface.heights - middle)
-    spikes = nothing
+    spikes, usual = nothing, surface.valid
     for deviation, spread in ((heights, high - middle), (-heights, middle - low)):
-        spikes = spikes | _small_regions(deviation, limit * max(float(spread), MIN_SPREAD * scale))
-    found = spikes | _deviating_rims(heights, surface.invalid | spikes, RIM_FACTOR * limit, MIN_DEVIATION * scale)
+        level = limit * max(float(spread), MIN_SPREAD * scale)
+        spikes = spikes | _small_regions(deviation, level)
+        usual = usual & (deviation < level)
+    found = spikes | _deviating_rims(heights, surface.invalid | spikes, usual, limit, MIN_DEVIATION * scale)
     next_to = _near(surface.invalid) if surface.invalid.any() and found.any() else nothing
     return Spikes(spikes=found & ~next_to, rims=found & next_to)
 
@@ -140,15 +147,23 @@ def _neighbours(places: NDArray[np.intp], shape: tuple[int, ...]) -> tuple[NDArr
     return first, second
 
 
-def _deviating_rims(heights: Array, absent: Mask, limit: float, least: float) -> Mask:
-    """Mask of the rim points more than ``limit`` standard deviations from the mean of their surroundings."""
+def _deviating_rims(heights: Array, absent: Mask, usual: Mask, limit: float, least: float) -> Mask:
+    """Mask of the rim points that deviate, and of their deviating neighbours, in deviations of their surroundings."""
     found = np.zeros(heights.shape, dtype=bool)
-    if not absent.any():
-        return found
-    near = _near(absent)
-    places = np.nonzero(near & ~absent)
-    mean, deviation = _surroundings(np.where(near, 0.0, heights), ~near, places)
-    found[places] = np.abs(heights[places] - mean) > limit * np.maximum(deviation, least)
+    for _ in range(MAX_RIMS if absent.any() else 0):
+        near = _near(absent | found)
+        places = np.nonzero(near & ~absent & ~found)
+        counted = usual & ~near
+        mean, deviation = _surroundings(np.where(counted, heights, 0.0), counted, places)
+        relative = np.abs(heights[places] - mean) / np.maximum(deviation, least)
+        found_before = found.copy()
+        if not found.any():
+            found[places] = relative > RIM_FACTOR * limit
+        if not found.any():
+            break
+        found[places] |= (relative > limit) & _near(found)[places]
+        if np.array_equal(found, found_before):
+            break
     return found
 
 
@@ -160,13 +175,13 @@ def _surroundings(heights: Array, counted: Mask, places: tuple[NDArray[np.intp],
     ]
     (x0, x1), (y0, y1) = corners
 
-    def total(values: Array) -> Array:
-        sums = np.zeros((values.shape[0] + 1, values.shape[1] + 1))
-        np.cumsum(values, axis=0, out=sums[1:, 1:])
-        np.cumsum(sums[1:, 1:], axis=1, out=sums[1:, 1:])
-        return np.asarray(sums[x1, y1] - sums[x0, y1] - sums[x1, y0] + sums[x0, y0])
+    def total(values: Array | Mask) -> Array:
+        sums = np.zeros((values.shape[0] + 1, values.shape[1] + 1), np.result_type(values, np.int32))
+        np.cumsum(values, axis=1, out=sums[1:, 1:])
+        np.cumsum(sums, axis=0, out=sums)
+        return np.asarray(sums[x1, y1] - sums[x0, y1] - sums[x1, y0] + sums[x0, y0], dtype=np.float64)
 
-    number = total(counted.astype(np.float64))
+    number = total(counted)
     enough = number >= MIN_SURROUNDINGS
     number = np.maximum(number, 1.0)
     mean = total(heights) / number

@@ -1,6 +1,6 @@
 """The difference of two measurements of one place, and the sum of two walls that face each other."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any, Literal, get_args
 
@@ -10,6 +10,7 @@ from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.preparation.grid import resample
+from roughfilm.contact.preparation.prepare import Levelled
 from roughfilm.contact.preparation.prepare import level as prepared_level
 from roughfilm.contact.preparation.recipe import AS_IT_IS, Recipe, read_recipe, recipe_entries
 from roughfilm.contact.registration.grids import Sampler, common_spacing, overlap
@@ -126,7 +127,12 @@ def difference(
         worn=wear.worn,
         quantities=quantities,
         record=record,
-        warnings=(*registration.warnings, *_mismatch(quantities["correlation"].value), *wear.warnings),
+        warnings=(
+            *_of_both(levelled),
+            *registration.warnings,
+            *_mismatch(quantities["correlation"].value),
+            *wear.warnings,
+        ),
     )
 
 
@@ -202,8 +208,13 @@ def composite(
         worn=np.zeros(valid.shape, dtype=bool),
         quantities=quantities,
         record=record,
-        warnings=registration.warnings,
+        warnings=(*_of_both(levelled), *registration.warnings),
     )
+
+
+def _of_both(levelled: Iterable[Levelled]) -> tuple[str, ...]:
+    """The warnings about the preparation of both surfaces, each once."""
+    return tuple(dict.fromkeys(warning for each in levelled for warning in each.warnings))
 
 
 def _mismatch(correlation: float) -> tuple[str, ...]:

@@ -2,6 +2,7 @@
 
 import math
 import os
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, get_args
@@ -22,6 +23,7 @@ from roughfilm.contact.preparation import prepare as preparation
 from roughfilm.contact.preparation.recipe import AS_IT_IS, load_recipe, read_recipe
 from roughfilm.contact.registration import combine as combination
 from roughfilm.contact.surfaces import files
+from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, Surface
 from roughfilm.contact.synthetic.description import make, read_description
 from roughfilm.rom.homogenization.conductance import FaceRule
@@ -99,6 +101,12 @@ def read_surface(
     UnavailableError
         If the file needs a library that is not installed.
 
+    Warns
+    -----
+    UserWarning
+        If a unit of the file may be wrong: pixels outside of 1 nm to 1 mm, an rms slope of 3 or more, or an rms height
+        outside of 10⁻⁵ to 10³ pixels.
+
     Examples
     --------
     >>> import roughfilm as rf
@@ -115,11 +123,14 @@ def read_surface(
             raise InputError(f"{name}: got {given[name]!r}; a described surface is complete, leave it out")
         return make(read_description(file))
     pair = None if spacing is None else _pair(spacing)
-    return files.read_surface(file, channel=channel, spacing=pair, height_unit=height_unit)
+    surface = files.read_surface(file, channel=channel, spacing=pair, height_unit=height_unit)
+    for sentence in implausible(surface, file):
+        warnings.warn(sentence, UserWarning, stacklevel=2)
+    return surface
 
 
 def prepare(surface: Surface, recipe: str | Path | Mapping[str, Any] | None = None) -> preparation.Prepared:
-    """Prepare a measured surface as a periodic cell: level, fill, cut outliers, window, resample, join edges, smooth.
+    """Prepare a measured surface as a periodic cell: level, cut outliers, fill, window, resample, join edges, smooth.
 
     Parameters
     ----------

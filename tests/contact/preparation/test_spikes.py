@@ -67,6 +67,22 @@ def test_a_spiked_rim_around_a_hole_changes_neither_the_heights_nor_the_gap(kind
     assert mean_gap(found.surface) == pytest.approx(mean_gap(by_hand.surface), rel=2e-3)
 
 
+WIDE = {
+    "two points, up to 60 um": (2, lambda rng, distance: rng.uniform(5e-6, 60e-6, distance.shape)),
+    "three points, 60 um": (3, lambda rng, distance: 60e-6),
+    "four points, up to 60 um": (4, lambda rng, distance: rng.uniform(5e-6, 60e-6, distance.shape)),
+}
+
+
+@pytest.mark.parametrize("kind", WIDE)
+def test_a_wide_rim_is_found_whole(kind):
+    width, heights = WIDE[kind]
+    invalid, _ = holes((40, 70))
+    rim = scipy.ndimage.binary_dilation(invalid, np.ones((3, 3)), iterations=width) & ~invalid
+    given = spiked(rough(), rim, heights(np.random.default_rng(868), rim), invalid)
+    assert np.array_equal(level(given, Recipe()).trusted.invalid, invalid | rim)
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_a_few_spikes_anywhere_and_of_any_height_change_the_rms_height_by_a_hundredth(seed):
     rng = np.random.default_rng(863 + seed)
