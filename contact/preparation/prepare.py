@@ -102,7 +102,7 @@ class Levelled:
     trusted : ``measured`` after clipping, with spikes and rims marked as invalid too, then the S- and the L-filter.
     filled : ``trusted`` with invalid points filled.
     record : data and changes of each step, as entries that JSON can hold.
-    warnings : sentences on units that may be wrong.
+    warnings : sentences on units that may be wrong, and on nesting indices that pixels or sides do not support.
     """
 
     original: Surface
@@ -143,7 +143,7 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
         trusted=trusted,
         filled=filled,
         record=record,
-        warnings=implausible(trusted),
+        warnings=(*implausible(trusted), *nesting_warnings(surface, recipe.s_filter, recipe.l_filter)),
     )
 
 
@@ -190,11 +190,7 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
         joint=joint,
         surface=smoothed.with_heights(smoothed.heights, source=source),
         record=record,
-        warnings=(
-            *levelled.warnings,
-            *nesting_warnings(surface, recipe.s_filter, recipe.l_filter),
-            *_warnings(record),
-        ),
+        warnings=(*levelled.warnings, *_warnings(record)),
     )
 
 

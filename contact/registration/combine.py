@@ -1,6 +1,6 @@
 """The difference of two measurements of one place, and the sum of two walls that face each other."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any, Literal, get_args
 
@@ -10,6 +10,7 @@ from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.preparation.grid import resample
+from roughfilm.contact.preparation.prepare import Levelled
 from roughfilm.contact.preparation.prepare import level as prepared_level
 from roughfilm.contact.preparation.recipe import AS_IT_IS, Recipe, read_recipe, recipe_entries
 from roughfilm.contact.registration.grids import Sampler, common_spacing, overlap
@@ -24,6 +25,9 @@ Level = Literal["unworn", "all"]
 Shift = tuple[float, float] | Literal["registered"]
 """Position of the first pixel of the second surface on the first one, m, or the one that registration finds."""
 
+
+MIN_CORRELATION = 0.95
+"""Correlation of the unworn points of both measurements below which a difference causes a warning."""
 
 WITHOUT_TILT: Mapping[str, Any] = {**AS_IT_IS, "form": "tilt"}
 """Entries of the recipe of surfaces that are not periodic; its steps up to the window are taken on both."""
@@ -86,7 +90,8 @@ def difference(
     Combined : quantities ``worn_volume_per_area`` (m; mean difference above its level), ``largest_depth`` (m; after a
         Gaussian filter of two pixels), ``worn_fraction``, ``noise`` (m; standard deviation of the difference over the
         unworn points), ``shift_x``, ``shift_y`` (m), ``correlation`` (of both over the points that are not worn), and
-        ``common_fraction`` (common valid points over those of the smaller surface).
+        ``common_fraction`` (common valid points over those of the smaller surface). A correlation below 0.95 causes a
+        warning.
 
     Raises
     ------
@@ -122,7 +127,12 @@ def difference(
         worn=wear.worn,
         quantities=quantities,
         record=record,
-        warnings=registration.warnings + wear.warnings,
+        warnings=(
+            *_of_both(levelled),
+            *registration.warnings,
+            *_mismatch(quantities["correlation"].value),
+            *wear.warnings,
+        ),
     )
 
 
@@ -198,7 +208,21 @@ def composite(
         worn=np.zeros(valid.shape, dtype=bool),
         quantities=quantities,
         record=record,
-        warnings=registration.warnings,
+        warnings=(*_of_both(levelled), *registration.warnings),
+    )
+
+
+def _of_both(levelled: Iterable[Levelled]) -> tuple[str, ...]:
+    """The warnings about the preparation of both surfaces, each once."""
+    return tuple(dict.fromkeys(warning for each in levelled for warning in each.warnings))
+
+
+def _mismatch(correlation: float) -> tuple[str, ...]:
+    if correlation >= MIN_CORRELATION:
+        return ()
+    return (
+        f"the unworn points of both measurements have a correlation of {correlation:.2f}, below {MIN_CORRELATION}: "
+        "rotation, magnification or noise hide the wear; align the specimen and measure again",
     )
 
 

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from scipy import ndimage
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.preparation.recipe import read_recipe
@@ -67,6 +68,23 @@ def test_two_measurements_of_one_place_differ_by_noise_alone():
     assert found["worn_fraction"].value < 0.01
     assert found["worn_volume_per_area"].uncertainty is not None
     assert abs(found["worn_volume_per_area"].value) <= 2 * found["worn_volume_per_area"].uncertainty + 1e-12
+
+
+def test_a_rotation_that_spoils_the_difference_warns():
+    """By 0.4° a difference keeps the scar; by 4° the unworn points differ by half of their height."""
+    rng = np.random.default_rng(962)
+    heights, _ = rough(rng)
+    x, y = np.meshgrid(np.arange(N) - N / 2, np.arange(N) - N / 2, indexing="ij")
+    scar = np.maximum(1 - (x**2 + y**2) / 20**2, 0)
+    inner = np.s_[EDGE:-EDGE, EDGE:-EDGE]
+    before = Surface(heights=1e-6 * heights[inner], spacing=(1e-6, 1e-6))
+    warned = []
+    for angle in np.radians([0.4, 4.0]):
+        c, s = np.cos(angle), np.sin(angle)
+        turned = ndimage.map_coordinates(heights, [c * x + s * y + N / 2, c * y - s * x + N / 2], mode="grid-wrap")
+        after = Surface(heights=1e-6 * (turned - scar)[inner], spacing=(1e-6, 1e-6))
+        warned.append(any("rotation" in warning for warning in difference(before, after).warnings))
+    assert warned == [False, True]
 
 
 def test_a_plane_through_all_points_hides_part_of_a_wide_scar():

@@ -518,6 +518,13 @@ def test_windows_lead_to_the_rms_height_of_the_whole_surface() -> None:
     assert values["sq"].scatter.mean == pytest.approx(0.945e-6, rel=0.02)
 
 
+def test_the_worn_volume_is_that_of_the_scar_within_its_uncertainty() -> None:
+    values = values_of("surfaces/wear")
+    gone = values["gone"]
+    assert abs(gone.value - values["true_volume"]) < 1.5 * gone.uncertainty < 0.05 * gone.value
+    assert [shift.value for shift in values["shift"]] == pytest.approx([-4.3 * 2e-6, 2.6 * 2e-6], abs=0.02 * 2e-6)
+
+
 # The ladder
 
 
