@@ -150,8 +150,8 @@ def command(
                 "numerics": {
                     "windows": sum(len(group.cells) for group in plan.groups),
                     "windows_found": rows.found,
-                    "cpu_s_of_windows": rows.cpu_s,
-                    **spent(),
+                    **(own := spent()),
+                    "cpu_s": own["cpu_s"] + rows.cpu_s,
                 },
                 "provenance": origin(SOURCES, answer.warnings, surface=dict(plan.source), scene=dict(asked.scene)),
             }
