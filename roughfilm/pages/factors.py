@@ -12,6 +12,7 @@ from roughfilm.pages.render import render
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flow_factors import Estimated
 from roughfilm.rom.homogenization.table.factor_table import FactorTable
+from roughfilm.rom.homogenization.table.windows import POSITIVE
 from roughfilm.words.average import rounded
 from roughfilm.words.numbers import with_error
 
@@ -100,4 +101,7 @@ def _factor(point: Mapping[str, Any], name: str, joint: str = " ± ") -> str:
         return "sealed"
     value, uncertainty = point[name]["value"], point[name]["uncertainty"]
     text = with_error(value, math.inf if uncertainty is None else uncertainty).replace("-", "−")
-    return f"{text}{joint}{rounded(point[name]['scatter'], value)}" if "scatter" in point[name] else text
+    if "scatter" not in point[name]:
+        return text
+    size = value if name in POSITIVE else math.inf  # the others may be near 0
+    return f"{text}{joint}{rounded(point[name]['scatter'], size)}"

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
+from roughfilm.contact.windows.scatter import MIN_INDEPENDENT
 from roughfilm.contact.windows.store import cell_path, read_windows
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.scene import load_scene
@@ -14,9 +15,6 @@ SceneT = TypeVar("SceneT", bound=Scene)
 
 PLACES = "windows"
 """The directory of the results of the windows, with a subdirectory for each."""
-
-FEW = 3.0
-"""Effective number of independent windows below which the scatter is unknown."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +37,7 @@ class Cells:
     @property
     def warnings(self) -> list[str]:
         """The warning that too few windows leave the scatter unknown."""
-        if self.independent >= FEW:
+        if self.independent >= MIN_INDEPENDENT:
             return []
         return [
             f"{len(self.paths)} windows are worth {self.independent:.3g} independent ones: too few for the scatter, "

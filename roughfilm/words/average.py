@@ -12,7 +12,10 @@ MOST = 10.0
 
 
 def rounded(uncertainty: float | None, value: float) -> str:
-    """An uncertainty with two digits; "?" if it is unknown or more than ten times the value."""
+    """An uncertainty with two digits; "?" if it is unknown or more than ten times the value.
+
+    An infinite ``value`` stands for a quantity that may be near 0, whose uncertainty is always shown.
+    """
     if uncertainty is None or not uncertainty <= MOST * abs(value):
         return "?"
     return _plain(uncertainty, 2)
