@@ -10,7 +10,7 @@ from roughfilm.contact.parameters.bearing_curve import bearing_curve
 from roughfilm.contact.parameters.spectrum import power_spectrum, radial_power
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.figures.base import new_figure, surface_map, svg
-from roughfilm.figures.ticks import plain_logarithmic
+from roughfilm.figures.ticks import plain_logarithmic, whole_decades
 from roughfilm.fitting.judge import Held
 from roughfilm.fitting.quantities import NAMES
 from roughfilm.fitting.run import Fit
@@ -27,6 +27,9 @@ BAND = (5, 50, 95)
 
 LEAST_POWER = 1e-9
 """Smallest power over the largest that is drawn."""
+
+FEW_DECADES = 30.0
+"""Largest ratio of the ends of an axis with plain numbers."""
 
 FACTORS = (1.0, 1e6, 1e18, 1e18)
 """Factors from SI units to those of the titles of the quantities."""
@@ -108,6 +111,8 @@ def _strip(axes: Axes, held: Held, windows: Array, seeds: Array, factor: float) 
         sealed = int((~open_).sum())
         if sealed:
             axes.plot(np.full(sealed, least), height[~open_], "x", color=colour, markersize=4)
+    left, right = axes.get_xlim()
+    (plain_logarithmic if right < FEW_DECADES * left else whole_decades)(axes.xaxis)
     axes.set_yticks([0, 1], ["windows", "seeds"])
     axes.set_ylim(1.5, -0.5)
 

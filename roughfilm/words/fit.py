@@ -20,8 +20,11 @@ HEADS = ("quantity", "windows, median", "seeds, median", "seeds, 95 %", "held-ou
 
 def headline(fit: Fit) -> str:
     """The judgement in one sentence, without a full stop."""
-    parts = [f"{held.inside} of {held.count} for {name}" for name, held in fit.held.items()]
-    return f"{fit.name}: seeds hold, of held-out windows, {', '.join(parts[:-1])} and {parts[-1]}"
+    first, *others = fit.held.items()
+    parts = [f"{held.inside} of {held.count} for {name}" for name, held in others]
+    name, held = first
+    begin = f"{fit.name}: seeds hold {held.inside} of {held.count} held-out windows for {name}"
+    return f"{begin}, {', '.join(parts[:-1])} and {parts[-1]}"
 
 
 def rows(fit: Fit) -> Sequence[tuple[str, ...]]:

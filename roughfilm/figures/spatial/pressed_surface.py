@@ -1,4 +1,4 @@
-"""A surface in space under loads by pyvista: python -m roughfilm.figures.spatial.pressed_surface VIEWS.npz P.png."""
+"""A surface in space under loads, by pyvista: python -m roughfilm.figures.spatial.pressed_surface VIEWS.npz OUT.png."""
 
 import sys
 from collections.abc import Sequence

@@ -63,7 +63,7 @@ def test_the_file_is_a_surface_for_other_commands(place):
 
 def test_the_page_answers_first(place):
     text = (place[0] / "page.html").read_text(encoding="utf-8")
-    assert "seeds hold, of held-out windows," in text
+    assert "held-out windows for contact pressure," in text
     assert text.index("How sure:") < text.index("Power spectrum") < text.index("Scatter")
 
 

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
+from roughfilm.contact.fitting.structure import strongest_line
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.preparation.recipe import Recipe
 from roughfilm.contact.preparation.window import Window
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.gaussian import gaussian
-from roughfilm.fitting.findings import findings_of, structure_of
+from roughfilm.fitting.findings import Structure, findings_of, structure_of
 from roughfilm.fitting.judge import Held, halves, held_out, interval_of
 from roughfilm.fitting.quantities import NAMES, load_at_area, quantities_of
 from roughfilm.fitting.run import fit_windows, overlap, side_of_squares
@@ -140,3 +141,30 @@ def test_windows_that_share_points_are_known():
     assert not overlap(group((0, 0), (32, 0), (0, 32)))
     assert overlap(group((0, 0), (31, 31)))
     assert not overlap(Group(size=1e-4, cells=(cell_of(0),), independent=1.0, rms_height=1e-6))
+
+
+@pytest.mark.parametrize(("growth", "names"), [(0.03, ["drift", "spread"]), (0.0, ["spread"])])
+def test_a_drift_of_the_rms_height_is_stated(growth, names):
+    starts = [(32 * i, 32 * j) for i in range(5) for j in range(4)]
+    cells = [cell_of(seed) for seed in range(20)]
+    cells = [
+        cell.with_heights(cell.heights / cell.heights.std() * np.exp(growth * i / 4 + 0.1 * np.sin(17 * seed)))
+        for seed, (cell, (i, _)) in enumerate(zip(cells, starts, strict=True))
+    ]
+    group = Group(
+        size=3.2e-5,
+        cells=tuple(cells),
+        windows=tuple(Window(start=start, shape=(32, 32)) for start in starts),
+        independent=20.0,
+        rms_height=1e-6,
+    )
+    nothing = Structure(
+        line=strongest_line(cells),
+        kurtosis=np.full((20, 2), 3.0),
+        angles=np.zeros(20),
+        flatness=np.zeros((20, 2)),
+        copies=np.ones((20, 4)),
+    )
+    found = findings_of(group, np.ones((20, 4)), nothing)
+    assert [one.name for one in found] == names
+    assert not any(one.lacking for one in found)
