@@ -140,12 +140,9 @@ def _of_measurement(
     levelled = level(surface, recipe)
     clipped = levelled.clipped
     found = decay_lengths(autocorrelation(clipped), clipped.spacing)
-    whole = cell_of(levelled, recipe, Window(start=(0, 0), shape=surface.shape))
-    recipe = recipe.model_copy(
-        update={"edges": recipe.edges.model_copy(update={"direction": whole.record["edges"]["direction"]})}
-    )
     largest = _largest(surface, count, found.shortest) if size is None else size
     shapes, warnings = _shapes(surface, largest, sizes)
+    recipe = _same_edges(levelled, recipe, shapes[-1])
     groups, done = [], 0
     for shape in shapes:
         places = window_places(surface.shape, shape, count)
@@ -170,6 +167,19 @@ def _of_measurement(
         decay=(found.shortest, found.longest),
         warnings=tuple(warnings),
     )
+
+
+def _same_edges(levelled: Levelled, recipe: Recipe, smallest: tuple[int, int]) -> Recipe:
+    """The recipe with the direction that suits the whole measurement, and the width of the smallest window's joint.
+
+    The default width grows with the window, so that the joint would take the same part of a window of any size, and an
+    extrapolation to large windows would keep its effect.
+    """
+    shape = levelled.clipped.shape
+    direction = cell_of(levelled, recipe, Window(start=(0, 0), shape=shape)).record["edges"]["direction"]
+    width = min(cell_of(levelled, recipe, Window(start=(0, 0), shape=smallest)).record["edges"]["width"])
+    edges = recipe.edges.model_copy(update={"direction": direction, "width": recipe.edges.width or width})
+    return recipe.model_copy(update={"edges": edges})
 
 
 def _cell(levelled: Levelled, recipe: Recipe, window: Window) -> Surface:
