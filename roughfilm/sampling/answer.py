@@ -102,8 +102,7 @@ def answer_of(plan: Plan, asked: Asked, rows: Rows, tolerance: float) -> Answer:
     if len(failures) == len(own):
         kind = InputError if failures[0].kind == InputError.__name__ else ConvergenceError
         raise kind(f"no window has an answer; the first: {failures[0].message}")
-    heights = [float(np.mean([cell.heights.std() for cell in group.cells])) for group in plan.groups]
-    growth = growth_of([group.size for group in plan.groups], heights)
+    growth = growth_of([group.size for group in plan.groups], [group.rms_height for group in plan.groups])
     names = dict.fromkeys([asked.headline, *(name for row in own for name in row.quantities)])
     quantities = {
         name: found

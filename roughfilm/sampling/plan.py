@@ -6,9 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
+from roughfilm.contact.preparation.edges import MIN_WIDTH, largest_width
 from roughfilm.contact.preparation.prepare import Levelled, cell_of, level
 from roughfilm.contact.preparation.recipe import Recipe, recipe_entries
 from roughfilm.contact.preparation.window import Window
@@ -56,6 +59,7 @@ class Group:
     windows : their places; empty for seeds.
     seeds : their seeds; empty for places.
     independent : effective number of independent windows.
+    rms_height : mean Sq of the windows before their edges are joined, m.
     """
 
     size: float
@@ -63,6 +67,7 @@ class Group:
     windows: tuple[Window, ...] = ()
     seeds: tuple[int, ...] = ()
     independent: float
+    rms_height: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,7 +147,7 @@ def _of_measurement(
     found = decay_lengths(autocorrelation(clipped), clipped.spacing)
     largest = _largest(surface, count, found.shortest) if size is None else size
     shapes, warnings = _shapes(surface, largest, sizes)
-    recipe = _same_edges(levelled, recipe, shapes[-1])
+    recipe = _with_one_edge(levelled, recipe, shapes)
     groups, done = [], 0
     for shape in shapes:
         places = window_places(surface.shape, shape, count)
@@ -157,6 +162,7 @@ def _of_measurement(
                 cells=tuple(cells),
                 windows=places,
                 independent=independent_windows(places, clipped),
+                rms_height=float(np.mean([clipped.heights[window.slices].std() for window in places])),
             )
         )
     return Plan(
@@ -169,17 +175,21 @@ def _of_measurement(
     )
 
 
-def _same_edges(levelled: Levelled, recipe: Recipe, smallest: tuple[int, int]) -> Recipe:
-    """The recipe with the direction that suits the whole measurement, and the width of the smallest window's joint.
+def _with_one_edge(levelled: Levelled, recipe: Recipe, shapes: Sequence[tuple[int, int]]) -> Recipe:
+    """The recipe with the same edges for all windows: the direction of the whole surface, and the width of the largest.
 
-    The default width grows with the window, so that the joint would take the same part of a window of any size, and an
-    extrapolation to large windows would keep its effect.
+    With a width in proportion to the window, the margin would be the same part of windows of all sizes, and its effect
+    would not vanish on the whole surface.
     """
-    shape = levelled.clipped.shape
-    direction = cell_of(levelled, recipe, Window(start=(0, 0), shape=shape)).record["edges"]["direction"]
-    width = min(cell_of(levelled, recipe, Window(start=(0, 0), shape=smallest)).record["edges"]["width"])
-    edges = recipe.edges.model_copy(update={"direction": direction, "width": recipe.edges.width or width})
-    return recipe.model_copy(update={"edges": edges})
+    whole = cell_of(levelled, recipe, Window(start=(0, 0), shape=levelled.original.shape))
+    chosen = recipe.edges.model_copy(update={"direction": whole.record["edges"]["direction"]})
+    if chosen.width is None:
+        (place,) = window_places(levelled.original.shape, shapes[0], 1)
+        own = max(cell_of(levelled, recipe.model_copy(update={"edges": chosen}), place).record["edges"]["width"])
+        steps = levelled.original.spacing
+        most = min(largest_width(count) * step for count, step in zip(shapes[-1], steps, strict=True))
+        chosen = chosen.model_copy(update={"width": max(min(own, most), MIN_WIDTH * max(steps))})
+    return recipe.model_copy(update={"edges": chosen})
 
 
 def _cell(levelled: Levelled, recipe: Recipe, window: Window) -> Surface:
@@ -261,7 +271,15 @@ def _of_description(
                 raise InputError(f"{name}, at a size of {_micro(length)}: {error}") from None
             warnings.append(f"surfaces of {_micro(length)} are left out: {error}")
             continue
-        groups.append(Group(size=min(cells[0].size), cells=tuple(cells), seeds=tuple(seeds), independent=float(count)))
+        groups.append(
+            Group(
+                size=min(cells[0].size),
+                cells=tuple(cells),
+                seeds=tuple(seeds),
+                independent=float(count),
+                rms_height=float(np.mean([cell.heights.std() for cell in cells])),
+            )
+        )
     if entries.get("amplitudes") == "fixed":
         warnings.append(
             'amplitudes = "fixed" gives every seed the same spectrum, so that seeds scatter less than windows of one '

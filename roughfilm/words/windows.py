@@ -11,6 +11,7 @@ from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.sampling.answer import Answer, WindowQuantity
 from roughfilm.words.numbers import finite_entries, share
 from roughfilm.words.scales import PERCENT, Scale, scale_for
+from roughfilm.words.units import EXACT
 
 PLAIN = {
     "friction_coefficient": "friction coefficient",
@@ -78,6 +79,8 @@ def known_to(found: Scatter) -> str:
     """The relative uncertainty of a mean in words: per cent, or a factor where a positive mean has a large one."""
     if found.relative is None:
         return "unknown"
+    if found.relative == 0:
+        return EXACT
     if found.positive and found.relative > LARGE:
         return f"a factor of {1 + found.relative:.2g}"
     return share(found.relative)

@@ -474,6 +474,17 @@ def test_a_prepared_surface_fits_to_itself_and_keeps_its_middle() -> None:
         assert np.abs(cell.take(0, axis=axis) - cell.take(-1, axis=axis)).mean() < 1.5 * inside
 
 
+def test_windows_lead_to_the_rms_height_of_the_whole_surface() -> None:
+    """The heights of the surface have an rms of 1 µm; its windows lack some of it at their margins."""
+    values = values_of("surfaces/windows_of_a_measurement")
+    trend, whole = values["sq"].trend, values["measured"].heights.std()
+    assert whole == pytest.approx(1e-6)
+    assert trend.limit == pytest.approx(whole, abs=trend.limit_uncertainty)
+    assert trend.limit_uncertainty < 0.15e-6
+    assert trend.part < 0
+    assert values["sq"].scatter.mean == pytest.approx(0.945e-6, rel=0.02)
+
+
 # The ladder
 
 
