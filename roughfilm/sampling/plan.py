@@ -98,7 +98,7 @@ def planned(
     *,
     count: int,
     size: float | None,
-    sizes: Sequence[float],
+    sizes: Sequence[float] | None,
     name: str,
     progress: Progress,
 ) -> Plan:
@@ -111,7 +111,7 @@ def planned(
     count : number of windows of each size.
     size : side of the largest windows, m; by default five decay lengths Sal or, if it is more, the side of the largest
         squares of which ``count`` fit, up to half of the measurement; for a description its size.
-    sizes : further sides, m; by default a half and a quarter of ``size``.
+    sizes : further sides, m; empty for windows of one size, None for a half and a quarter of ``size``.
     name : name for people.
     progress : called with the done fraction and a few words.
 
@@ -122,7 +122,7 @@ def planned(
     """
     if not 1 <= count <= MAX_WINDOWS:
         raise InputError(f"windows: got {count}; take 1 to {MAX_WINDOWS}")
-    wrong = [one for one in (size, *sizes) if one is not None and not (0 < one < math.inf)]
+    wrong = [one for one in (size, *(sizes or ())) if one is not None and not (0 < one < math.inf)]
     if wrong:
         raise InputError(f"size: got {wrong[0]!r} m; give lengths above 0")
     if isinstance(given, Path):
@@ -135,7 +135,7 @@ def _of_measurement(
     recipe: Recipe,
     count: int,
     size: float | None,
-    sizes: Sequence[float],
+    sizes: Sequence[float] | None,
     name: str,
     progress: Progress,
 ) -> Plan:
@@ -214,12 +214,12 @@ def _largest(surface: Surface, count: int, sal: float) -> float:
     return max(min(max(low, DECAY_LENGTHS * sal), 0.5 * min(surface.size)), min(least, *surface.size))
 
 
-def _shapes(surface: Surface, largest: float, sizes: Sequence[float]) -> tuple[list[tuple[int, int]], list[str]]:
+def _shapes(surface: Surface, largest: float, sizes: Sequence[float] | None) -> tuple[list[tuple[int, int]], list[str]]:
     """The numbers of pixels of the windows of each size, the largest first, and warnings about sizes left out."""
     side = min(surface.size)
     if largest > side * (1 + 1e-9):
         raise InputError(f"size: got {_micro(largest)}; the measurement is {_micro(side)} wide, take less")
-    wanted = [largest, *(sizes or [largest / ratio for ratio in SIZE_RATIOS])]
+    wanted = [largest, *([largest / ratio for ratio in SIZE_RATIOS] if sizes is None else sizes)]
     shapes: list[tuple[int, int]] = []
     warnings = []
     for length in sorted(set(wanted), reverse=True):
@@ -242,14 +242,19 @@ def _shapes(surface: Surface, largest: float, sizes: Sequence[float]) -> tuple[l
 
 
 def _of_description(
-    description: Description, count: int, size: float | None, sizes: Sequence[float], name: str, progress: Progress
+    description: Description,
+    count: int,
+    size: float | None,
+    sizes: Sequence[float] | None,
+    name: str,
+    progress: Progress,
 ) -> Plan:
     entries = description_entries(description)
     if "seed" not in entries:
         raise InputError(f"{name}: kind: got {entries['kind']!r}, which has no seed; all its windows are the same")
     shorter = min(description.size)
     largest = shorter if size is None else size
-    wanted = sorted({largest, *(sizes or [largest / ratio for ratio in SIZE_RATIOS])}, reverse=True)
+    wanted = sorted({largest, *([largest / ratio for ratio in SIZE_RATIOS] if sizes is None else sizes)}, reverse=True)
     points = [_points(description, length / shorter) for length in wanted]
     warnings = []
     groups, done = [], 0
