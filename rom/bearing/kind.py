@@ -13,9 +13,10 @@ from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.faults import Fault, faults_of, known_keys, unknown_key
 from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity, to_si
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.numbers import bearing_numbers
-from roughfilm.rom.bearing.roughness import ROUGHNESSES
+from roughfilm.rom.bearing.roughness import ROUGHNESSES, RoughSurface
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import SHAPES
 from roughfilm.rom.bearing.totals.reported import REPORTED
@@ -178,6 +179,11 @@ def omitted(scene: Bearing, quantity: str) -> Omission | None:
         return None
 
 
+def window(scene: Bearing) -> Surface | None:
+    """The rough surface of one of the walls; None if the roughness is another one."""
+    return scene.roughness.read() if isinstance(scene.roughness, RoughSurface) else None
+
+
 def composed(scene: Bearing) -> tuple[str, ...]:
     """A line for each effect with its model and the reason, and one for the film under a load."""
     from roughfilm.rom.bearing.effects.explanation import effect_models  # slow to import
@@ -194,6 +200,7 @@ KIND = Kind(
     name="bearing",
     scene=Bearing,
     summary="a film between a shaped wall and a sliding one, with cavitation",
+    window=window,
     compared={"load_per_width": "load", "friction_per_width": "friction"},
     compared_with={"load": {"film_min": "least film thickness", "friction_per_width": "friction"}},
     others={

@@ -96,6 +96,7 @@ KIND = Kind(
     name="dry_contact",
     scene=DryContact,
     summary="a rough surface pressed on a flat one",
+    window=DryContact.surface,
     compared={"area_fraction": "contact area", "mean_gap": "mean gap"},
     others={"mean_contact_pressure": "mean contact pressure", "pressure_max": "peak pressure", "approach": "approach"},
     reported={

@@ -17,6 +17,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.faults import EntriesFile, Fault, faults_of, in_lines, known_keys, unknown_key
 from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.sweeping import Sweeping
 
@@ -65,6 +66,11 @@ def nothing_composed(_scene: Any) -> tuple[str, ...]:
     return ()
 
 
+def no_surface(_scene: Any) -> None:
+    """Return no surface, for kinds whose scenes have none that is one window of a larger surface."""
+    return
+
+
 def nothing_remarked(_entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
     """Return no sentences, for kinds whose quantities need none."""
     return ()
@@ -111,6 +117,7 @@ class Kind:
     lists : places of lists that are one value. A study sweeps every other list, and lists of such values.
     numbers : numbers(scene), the dimensionless numbers of the error laws, without those that have no meaning.
     symbols : the symbols of these numbers.
+    window : window(scene), the rough surface that stands for a larger one; None if a scene has none.
     composed : composed(scene), a line on the model of each effect of a scene, with its reason.
     excluded : the effects that no model of the kind includes, in words.
     omitted : omitted(scene, quantity), the size of such an effect; None if it is zero or unknown.
@@ -135,6 +142,7 @@ class Kind:
     compared_with: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     lawful: bool = True
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     omitted: Callable[[Any, str], Omission | None] = nothing_omitted
     outside_laws: Callable[[Any, Any, str], str] = within_laws

@@ -58,6 +58,7 @@ KIND = Kind(
     name="seal",
     scene=Seal,
     summary="a liquid that leaks between a rough surface and a flat one",
+    window=Seal.surface,
     compared={"leakage_per_width": "leakage", "area_fraction": "contact area"},
     others={"mean_gap": "mean gap", "permeability": "permeability"},
     remarks=remarks,

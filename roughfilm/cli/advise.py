@@ -13,6 +13,7 @@ from roughfilm.rom.advice.advise import DEFAULT_TOLERANCE, Advice, ModelVerdict,
 from roughfilm.rom.advice.estimates import Estimate
 from roughfilm.rom.advice.laws import table as laws_table
 from roughfilm.rom.advice.stated import entries_of_errors, percent
+from roughfilm.rom.advice.window import window_note
 from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import (
@@ -54,7 +55,8 @@ def command(
     with progress_bar(1.0) as advance:
         advice = advise(read, models(read.kind), quantity=compared, within=fraction, progress=advance)
     if as_json:
-        print_json({**entries_of(advice), "composition": list(kind_of_scene(read).composed(read))})
+        note = window_note(read, fraction)
+        print_json({**entries_of(advice), "composition": list(kind_of_scene(read).composed(read)), "window": note})
     else:
         print_all(_shown(read, advice))
     if advice.chosen is None:
@@ -93,6 +95,8 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     yield from (f"  {line}" for line in kind.composed(scene))
     if advice.omitted is not None:
         yield f"all of them: {advice.omitted.reason}"
+    if note := window_note(scene, advice.within):
+        yield note
     numbers = [f"{kind.symbols[name]} = {value:.3g}" for name, value in advice.numbers.items() if name in kind.symbols]
     if numbers:
         yield f"numbers of the scene: {', '.join(numbers)}"

@@ -97,19 +97,21 @@ class Judgement:
 
     Attributes
     ----------
-    iterations : number of iterations of the solver.
+    iterations : number of iterations of the solver; None if there is none.
     right : whether the answer is right.
     error : its error as the judge measures it.
     reported : whether the answer itself reports, by a warning or an uncertainty, that it may be as wrong as it is.
     numbers : other numbers of the map, by name.
+    why : finer word for the outcome; "" where there is none.
     message : message of the judge; "" where there is none.
     """
 
-    iterations: int
+    iterations: int | None
     right: bool
     error: float
     reported: bool = False
     numbers: Mapping[str, float | None] = field(default_factory=dict)
+    why: str = ""
     message: str = ""
 
 
@@ -163,10 +165,11 @@ class Probe:
         if self.refused:
             return Spot(**place, outcome=MapOutcome.WRONG, cpu_s=cpu_s, message="an answer, where none exists")
         judged = self.judge(answer)
-        good = MapOutcome.SLOW if judged.iterations > self.many else MapOutcome.CONVERGED
+        good = MapOutcome.SLOW if (judged.iterations or 0) > self.many else MapOutcome.CONVERGED
         return Spot(
             **place,
             outcome=good if judged.right else MapOutcome.INACCURATE if judged.reported else MapOutcome.WRONG,
+            why=judged.why,
             iterations=judged.iterations,
             cpu_s=cpu_s,
             error=float(judged.error) if np.isfinite(judged.error) else None,
@@ -215,6 +218,9 @@ class StabilityMap:
     summary : function that returns sentences about the spots.
     least, most, allowed : smallest and largest resolution, and this range in words.
     draw : function that returns the figures beside the tables as SVG, by name.
+    cell_numbers : names of two numbers of a spot, fractions that its cell on the page shows in percent; none for the
+        number of iterations and the error.
+    cell_words : sentence on what each cell of the page shows.
     """
 
     name: str
@@ -229,6 +235,11 @@ class StabilityMap:
     most: float = math.inf
     allowed: str = ""
     draw: Callable[[Sequence[Spot]], Mapping[str, str]] = field(default=lambda _spots: {})
+    cell_numbers: tuple[str, str] | tuple[()] = ()
+    cell_words: str = (
+        "Each cell has the number of iterations, and below it the error against the reference, or the CPU time where "
+        "there is no error."
+    )
 
     def make(
         self, *, resolution: int | None, out: Path, processes: int, scratch: Path
@@ -263,6 +274,8 @@ class StabilityMap:
             "judge": self.judge,
             "resolution": resolution,
             "resolution_meaning": self.resolution_meaning,
+            "cell_numbers": list(self.cell_numbers),
+            "cell_words": self.cell_words,
             "counts": {outcome.value: count(spots, outcome) for outcome in MapOutcome},
             "cpu_s": sum(spot.cpu_s for spot in spots),
             "in_words": self.summary(spots),

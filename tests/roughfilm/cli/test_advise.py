@@ -8,6 +8,8 @@ from places import SCENES
 from typer.testing import CliRunner
 
 from roughfilm.cli.main import app
+from roughfilm.rom.advice.window import window_note
+from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.ladder.store import load
 from roughfilm.terminal.console import BAD_INPUT, NOT_CONVERGED
 
@@ -43,6 +45,21 @@ def test_advice_for_people(run, groove):
     assert "load within 10 % by" in found.stdout
     assert "reynolds: not enough: error above 100 % (expected by the laws); leaves out inertia" in found.stdout
     assert "h/L = 0.03" in found.stdout
+
+
+def test_the_scatter_between_windows_is_said(run):
+    scene = SCENES / "dry_contact.toml"
+    text = run("advise", scene).stdout.replace("\n", " ")
+    assert "the surface is one window: Sq of another one of its size differs by up to about" in text
+    assert json.loads(run("advise", scene, "--json").stdout)["window"].endswith("run roughfilm windows")
+
+
+@pytest.mark.parametrize(("kind", "noted"), [("seal", True), ("pad", True), ("journal", False), ("pocket", False)])
+def test_the_scatter_between_windows_is_noted_where_a_scene_has_a_surface(kind, noted):
+    """These windows scatter by more than 1 %; 90 % is more than any window shows."""
+    scene = load_scene(SCENES / f"{kind}.toml")
+    assert window_note(scene, 0.01).startswith("the surface is one window") == noted
+    assert window_note(scene, 0.9) == ""
 
 
 def test_solve_takes_what_is_advised_and_keeps_why(run, groove, tmp_path):

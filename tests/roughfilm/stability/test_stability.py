@@ -286,6 +286,7 @@ def test_a_second_try_and_a_failure_are_told_from_what_simply_converges(small, t
         (["contact", "--resolution", "8"], "--resolution: got 8; the surfaces need at least 32 points"),
         (["cell", "--resolution", "8"], "--resolution: got 8; the cells take 64 to 512 nodes along a side"),
         (["cavitation", "--resolution", "8"], "--resolution: got 8; the slider takes 100 to 100000 nodes"),
+        (["windows", "--resolution", "8"], "--resolution: got 8; the windows take 32 to 128 points along a side"),
         (["rough_gap", "--resolution", "16"], "--resolution: got 16; it must be even, 32 to 64"),
         (["rough_gap", "--resolution", "33"], "--resolution: got 33; it must be even, 32 to 64"),
         (["rough_gap", "--resolution", "256"], "--resolution: got 256; it must be even, 32 to 64"),
