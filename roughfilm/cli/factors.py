@@ -40,7 +40,7 @@ from roughfilm.rom.homogenization.table.tabulate import INTERPOLATION_TOLERANCE,
 from roughfilm.rom.homogenization.table.windows import factors_at, point_quantities, tabulate_windows
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import code
-from roughfilm.sets.cells import read_cells
+from roughfilm.sampling.cells import read_cells
 from roughfilm.terminal.console import (
     NUMERICS,
     OUTPUT,

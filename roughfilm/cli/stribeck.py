@@ -27,8 +27,8 @@ from roughfilm.rom.bearing.mixed.stribeck import (
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
-from roughfilm.sets.cells import Cells, place_of, read_cells, scenes_of
-from roughfilm.sets.stribeck import curves_over_windows, rough_bearing
+from roughfilm.sampling.cells import Cells, place_of, read_cells, scenes_of
+from roughfilm.sampling.stribeck import curves_over_windows, rough_bearing
 from roughfilm.terminal.console import (
     AsJson,
     Jobs,

@@ -96,7 +96,7 @@ def stribeck(
     given = [own] if loads is None and own is not None else [in_range("loads", load, "Pa") for load in loads or ()]
     wanted = [in_range("speeds", speed, "m/s", zero=True) for speed in speeds]
     if windows is not None:
-        from roughfilm.sets.stribeck import curves_over_windows, rough_bearing  # multiprocessing is slow to import
+        from roughfilm.sampling.stribeck import curves_over_windows, rough_bearing  # multiprocessing is slow to import
 
         cells = checked_windows(windows)
         with (
@@ -226,7 +226,7 @@ def _leakage_of_windows(
     progress: Progress,
 ) -> LeakageCurve:
     """The leakage over several windows, whose results are kept in subdirectories."""
-    from roughfilm.sets.leakage import leakage_of_windows  # multiprocessing is slow to import
+    from roughfilm.sampling.leakage import leakage_of_windows  # multiprocessing is slow to import
 
     with scenes_with(scene, "geometry.surface", windows) as scenes:
         seals = [one for one in scenes if isinstance(one, Seal)]

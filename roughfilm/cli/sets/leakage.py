@@ -17,8 +17,8 @@ from roughfilm.rom.seal.leakage.windows import SealOfWindows, columns_of_windows
 from roughfilm.rom.seal.model import leakage_of
 from roughfilm.rom.seal.scene import Seal
 from roughfilm.rom.studies.table import TABLE, Column, table_beginning, write_csv, write_hdf5
-from roughfilm.sets.cells import Cells, place_of, read_cells, scenes_of
-from roughfilm.sets.leakage import leakage_of_windows
+from roughfilm.sampling.cells import Cells, place_of, read_cells, scenes_of
+from roughfilm.sampling.leakage import leakage_of_windows
 from roughfilm.terminal.console import make_directory, progress_bar
 from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
