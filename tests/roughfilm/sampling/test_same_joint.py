@@ -26,7 +26,7 @@ def plan_of(edges, seed=1):
         recipe,
         count=9,
         size=128e-6,
-        sizes=(),
+        sizes=(64e-6, 32e-6),
         name="surface",
         progress=lambda *_: None,
     )
