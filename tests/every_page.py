@@ -141,6 +141,7 @@ def written(command: str, scene: Path, *options: object) -> Callable[[Path], Pat
 
 KINDS: dict[str, Callable[[Path], Path]] = {
     "surface": reported("surface"),
+    "combination": reported("combine", "rough.toml", "--operation", "sum"),
     "contact": reported("contact", *STEEL),
     "factors": reported("factors", "--tolerance", 0.2, "--out", "factors.h5"),
     "leakage": written("leakage", Path("seal.toml")),

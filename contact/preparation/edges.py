@@ -1,4 +1,4 @@
-"""Step 6 of the preparation: join opposite edges and leave the interior as measured."""
+"""Step 8 of the preparation: join opposite edges and leave the interior as measured."""
 
 from typing import Literal
 

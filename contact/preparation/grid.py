@@ -1,4 +1,4 @@
-"""Step 5 of the preparation: resample the surface to another number of pixels."""
+"""Step 7 of the preparation: resample the surface to another number of pixels."""
 
 from typing import Literal
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from roughfilm.rom.bearing.corners import jumps
 from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE
+from roughfilm.rom.bearing.roughness import RoughSurface
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.solve import Solution
@@ -59,7 +60,8 @@ def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:
     They are no film, starved inlets without sliding or below ambient, pressures at sides that the model leaves out, and
     jumps of the pressure.
     """
-    warnings, ends, lowest = [], solution.problem.ends, scene.lubricant.cavitation_pressure
+    ends, lowest = solution.problem.ends, scene.lubricant.cavitation_pressure
+    warnings = [*(scene.roughness.warnings() if isinstance(scene.roughness, RoughSurface) else ())]
     if (solution.kind == CAVITY).any() and not (solution.kind == FILM).any():
         warnings.append("no film forms: the inlet flow is smaller than the flow that the narrowest place can carry")
     if scene.motion.speed == 0 and ends.theta < 1:

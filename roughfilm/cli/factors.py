@@ -21,6 +21,7 @@ from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.store import is_series, load_contact, load_series
 from roughfilm.contact.read import HeightMap, parse_spacing, periodicity_warnings, read_height_map
+from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING, Surface
 from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
@@ -248,7 +249,7 @@ def _undeformed(path: Path, pressed: Inputs) -> HeightMap:
     """The undeformed surface of a file of contacts."""
     source = {"file": path.name, "settings": dict(pressed.settings)}
     surface = Surface(heights=pressed.heights, spacing=pressed.spacing)
-    warnings = periodicity_warnings(path, surface, measured=False)
+    warnings = (*implausible(surface, path), *periodicity_warnings(path, surface, measured=False))
     return HeightMap(heights=pressed.heights, spacing=pressed.spacing, source=source, warnings=warnings)
 
 

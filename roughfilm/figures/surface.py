@@ -66,11 +66,8 @@ def bearing_curves(prepared: Prepared) -> str:
     """Height against the part of the surface above it, with the cut levels."""
     figure, axes = new_figure((5.4, 4.2))
     level = _level(prepared)
-    for surface, label, colour, line in (
-        (prepared.filled, "measured", BEFORE, 2.4),
-        (prepared.surface, "prepared", AFTER, 1.2),
-    ):
-        ratio, height = bearing_curve(surface.heights)
+    for surface, label, colour, line in _both(prepared):
+        ratio, height = bearing_curve(surface.heights[surface.valid])
         axes.plot(100 * ratio, (height - level) * 1e6, color=colour, label=label, linewidth=line)
     for end in ("highest", "lowest"):
         axes.axhline((prepared.record["outliers"][end] - level) * 1e6, color="black", linestyle=":", linewidth=1)

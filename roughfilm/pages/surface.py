@@ -11,7 +11,7 @@ from roughfilm.figures import surface as surface_figures
 from roughfilm.figures.relief import surface_picture
 from roughfilm.pages.render import render
 from roughfilm.words.numbers import in_unit, percent
-from roughfilm.words.surface import preparation_steps
+from roughfilm.words.surface import preparation_steps, scale_limits
 
 MEANINGS = {
     "Sa": "mean distance from the mean plane",
@@ -56,6 +56,7 @@ def write_page(
         rows=rows,
         changes={name: _change(quantities, name) for name in ("Sq", "Sa")},
         steps=[line.partition(": ") for line in preparation_steps(prepared)],
+        scale=scale_limits(prepared),
         mismatch=prepared.record["periodicity_mismatch"],
         threshold=MISMATCH_THRESHOLD,
         maps=surface_figures.height_maps(prepared),

@@ -143,8 +143,8 @@ def _of_measurement(
         raise InputError("recipe: window: is set; the windows are chosen here, leave it out and give --size")
     progress(0.0, "levelling the measurement")
     levelled = level(surface, recipe)
-    clipped = levelled.clipped
-    found = decay_lengths(autocorrelation(clipped), clipped.spacing)
+    filled = levelled.filled
+    found = decay_lengths(autocorrelation(filled), filled.spacing)
     largest = _largest(surface, count, found.shortest) if size is None else size
     shapes, warnings = _shapes(surface, largest, sizes)
     recipe = _with_one_edge(levelled, recipe, shapes)
@@ -161,17 +161,17 @@ def _of_measurement(
                 size=min(n * step for n, step in zip(shape, surface.spacing, strict=True)),
                 cells=tuple(cells),
                 windows=places,
-                independent=independent_windows(places, clipped),
-                rms_height=float(np.mean([clipped.heights[window.slices].std() for window in places])),
+                independent=independent_windows(places, filled),
+                rms_height=float(np.mean([filled.heights[window.slices].std() for window in places])),
             )
         )
     return Plan(
         name=name,
         groups=tuple(groups),
         source={"prepared_from": dict(surface.source), "recipe": recipe_entries(recipe)},
-        surface=clipped,
+        surface=filled,
         decay=(found.shortest, found.longest),
-        warnings=tuple(warnings),
+        warnings=(*levelled.warnings, *warnings),
     )
 
 

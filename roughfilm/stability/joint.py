@@ -6,7 +6,7 @@ from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.surface import Surface
 
-EDGES_ONLY = {"form": "none", "outliers": {"points": 0}, "grid": {"points": "kept"}, "smoothing": 1}
+EDGES_ONLY = {"form": "none", "outliers": {"limit": 0.0, "points": 0}, "grid": {"points": "kept"}, "smoothing": 1}
 """Recipe that joins the edges and changes nothing else."""
 
 

@@ -146,6 +146,7 @@ COMMANDS = {
     "windows": Command(
         words=_words("windows rough.toml --scene seal.toml --windows 6 --sizes 80um --out windows --jobs 2 --json")
     ),
+    "combine": Command(words=_words("combine rough.toml rough.toml --out wear.h5 --report page.html --json")),
     "export": Command(words=_words("export gap.toml --out gap.vtu --resolution 16 --json")),
     "export, surface": Command(words=_words("export rough.toml --out rough.stl --json")),
     "generate": Command(words=(*GENERATE, "--json"), once=True),

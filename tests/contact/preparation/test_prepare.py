@@ -5,7 +5,8 @@ import pytest
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters.roughness_parameters import parameters
-from roughfilm.contact.preparation.prepare import prepare
+from roughfilm.contact.preparation.filters import l_filter, s_filter
+from roughfilm.contact.preparation.prepare import level, prepare
 from roughfilm.contact.preparation.recipe import Recipe, read_recipe, recipe_entries
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD
@@ -49,9 +50,11 @@ def test_every_step_leaves_its_mark():
     given = measured()
     prepared = prepare(given, Recipe())
     record = prepared.record
-    assert np.abs(prepared.measured.heights[prepared.measured.valid].mean()) < 1e-12
+    assert np.abs(prepared.measured.heights[prepared.measured.valid].mean()) < 1e-9
     assert record["invalid"]["residual"] <= 1e-9
+    assert record["outliers"]["spikes"] + record["outliers"]["rims"] == 2
     assert (record["outliers"]["above"], record["outliers"]["below"]) >= (1, 1)
+    assert record["filled"]["points"] == record["invalid"]["points"] + 2
     assert np.ptp(prepared.surface.heights) < 0.3 * np.ptp(prepared.measured.heights)
     assert prepared.surface.shape == (512, 256)
     assert prepared.surface.size == pytest.approx(given.size)
@@ -59,6 +62,26 @@ def test_every_step_leaves_its_mark():
     assert record["periodicity_mismatch"]["before"] > 0.5
     assert record["periodicity_mismatch"]["after"] < MISMATCH_THRESHOLD
     assert not prepared.warnings
+
+
+def test_filters_follow_the_outliers_and_precede_the_window():
+    """A spike does not spread: the heights are those of the filters on the surface whose spikes were cut."""
+    given = measured()
+    entries = {"s_filter": "6 um", "l_filter": "80 um", "grid": {"points": "kept"}, "edges": {"direction": "none"}}
+    prepared = prepare(given, read_recipe(entries))
+    levelled = level(given, read_recipe({}))
+    expected = l_filter(s_filter(levelled.trusted, 6e-6), 80e-6)
+    valid = expected.valid
+    assert not valid[17, 19]
+    assert np.array_equal(prepared.measured.invalid, ~valid)
+    assert np.array_equal(prepared.measured.heights, expected.heights)
+    assert np.array_equal(prepared.surface.heights[valid], expected.heights[valid])
+    assert prepared.record["scale"] == {"form": "quadratic", "s_filter": 6e-6, "l_filter": 80e-6}
+
+
+def test_nesting_indices_beyond_pixels_and_sides_warn():
+    warnings = prepare(measured(), read_recipe({"s_filter": "4 um", "l_filter": "0.5 mm"})).warnings
+    assert [warning.partition(":")[0] for warning in warnings] == ["s_filter", "l_filter"]
 
 
 def test_edges_and_middle_are_those_of_their_steps():
@@ -88,9 +111,9 @@ def test_a_surface_without_roughness_is_refused(heights):
 
 def test_a_surface_of_guesses_warns():
     given = measured()
-    invalid = np.random.default_rng(843).random(given.shape) < 0.4
+    invalid = given.invalid | (np.random.default_rng(843).random(given.shape) < 0.4)
     warnings = prepare(given.with_heights(given.heights, invalid=invalid), Recipe()).warnings
-    assert any("40 % of the points were invalid" in warning for warning in warnings)
+    assert any(warning.startswith(f"{100 * invalid.mean():.0f} % of the points were invalid") for warning in warnings)
 
 
 def test_a_surface_too_small_for_its_bins_warns_that_more_than_outliers_were_cut():
@@ -147,6 +170,8 @@ def test_a_joint_that_stays_bad_warns():
         ({"window": {"size": ["1 mm", "1 mm"]}}, "^window: got at least 834 pixels along x, where the surface has 300"),
         ({"edges": {"direction": "x", "width": "1 mm"}}, "^edges: got a width of .* pixels along x; give"),
         ({"outliers": {"points": 100_000}}, "^outliers: no bin of 1000 holds 100000 points"),
+        ({"s_filter": "1 mm"}, "^s_filter: got a nesting index of 0.001 m, longer than the shorter side"),
+        ({"l_filter": "1 um"}, "^l_filter: got a nesting index of 1e-06 m, shorter than the pixel spacing"),
         ({"grid": {"points": [12, 12]}, "smoothing": 13}, "^smoothing: got 13 points"),
         ({"grid": {"points": [50_000, 50_000]}}, "^grid: got 50000 x 50000 points; at most 100000000 are made"),
         ({"window": {"size": ["1e13 m", "1e13 m"]}}, "^window: got at least 1000000000 pixels along x"),

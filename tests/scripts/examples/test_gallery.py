@@ -485,6 +485,23 @@ def test_windows_lead_to_the_rms_height_of_the_whole_surface() -> None:
     assert values["sq"].scatter.mean == pytest.approx(0.945e-6, rel=0.02)
 
 
+def test_the_rms_height_over_the_nesting_index_is_that_of_the_waves_that_are_kept() -> None:
+    """The two waves of 2 µm and 0.5 µm keep 2^-(S/L)² (1 − 2^-(L'/L)²) of their amplitudes L."""
+    for index, rms in values_of("surfaces/nesting_indices")["sq"].items():
+        kept = [
+            height * 2 ** (-((8 / length) ** 2)) * (1 - 2 ** (-((index / length) ** 2)))
+            for height, length in ((2e-6, 500), (0.5e-6, 25))
+        ]
+        assert rms == pytest.approx(np.hypot(*kept) / np.sqrt(2), rel=1e-3)
+
+
+def test_the_worn_volume_is_that_of_the_scar_within_its_uncertainty() -> None:
+    values = values_of("surfaces/wear")
+    gone = values["gone"]
+    assert abs(gone.value - values["true_volume"]) < 1.5 * gone.uncertainty < 0.05 * gone.value
+    assert [shift.value for shift in values["shift"]] == pytest.approx([-4.3 * 2e-6, 2.6 * 2e-6], abs=0.02 * 2e-6)
+
+
 # The ladder
 
 
