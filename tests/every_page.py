@@ -143,6 +143,7 @@ KINDS: dict[str, Callable[[Path], Path]] = {
     "surface": reported("surface"),
     "combination": reported("combine", "rough.toml", "--operation", "sum"),
     "contact": reported("contact", *STEEL),
+    "fit": reported("fit", "--windows", 16, "--seeds", 40),
     "factors": reported("factors", "--tolerance", 0.2, "--out", "factors.h5"),
     "leakage": written("leakage", Path("seal.toml")),
     "stribeck": written(

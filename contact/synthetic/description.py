@@ -18,6 +18,7 @@ from roughfilm.contact.synthetic.gaussian import Autocorrelation, gaussian
 from roughfilm.contact.synthetic.grid import metres
 from roughfilm.contact.synthetic.milled import milled
 from roughfilm.contact.synthetic.plateau_honed import plateau_honed
+from roughfilm.contact.synthetic.random_field import Mode, Population, SpectrumTable, random_field
 from roughfilm.contact.synthetic.self_affine import self_affine
 from roughfilm.contact.synthetic.sinusoids import Combination, sinusoid
 from roughfilm.contact.synthetic.waves import Amplitudes
@@ -193,7 +194,23 @@ class PlateauHoned(_Described):
     half_angle: Angle = 0.0
 
 
-Description = SelfAffine | Gaussian | Sinusoid | CrossHatch | Milled | PlateauHoned
+class RandomField(_Described):
+    """A surface that scatters as the windows of a measurement, see ``roughfilm.contact.synthetic.random_field``.
+
+    Attributes
+    ----------
+    seed : seed of the random numbers.
+    spectrum : mean power of single waves.
+    population : powers of the octaves and distribution of heights, and how they differ between windows.
+    """
+
+    kind: Literal["random_field"]
+    seed: Whole
+    spectrum: SpectrumTable
+    population: Population
+
+
+Description = SelfAffine | Gaussian | Sinusoid | CrossHatch | Milled | PlateauHoned | RandomField
 
 KINDS: Mapping[str, tuple[type[BaseModel], Callable[..., Surface]]] = {
     "self_affine": (SelfAffine, self_affine),
@@ -202,7 +219,16 @@ KINDS: Mapping[str, tuple[type[BaseModel], Callable[..., Surface]]] = {
     "cross_hatch": (CrossHatch, cross_hatch),
     "milled": (Milled, milled),
     "plateau_honed": (PlateauHoned, plateau_honed),
+    "random_field": (RandomField, random_field),
 }
+
+TABLES: Mapping[str, type[BaseModel]] = {
+    "height_distribution": HeightDistribution,
+    "spectrum": SpectrumTable,
+    "population": Population,
+    "modes": Mode,
+}
+"""The tables within descriptions."""
 
 _READER: TypeAdapter[Description] = TypeAdapter(
     Annotated[Description, Field(discriminator="kind")], config=ConfigDict(defer_build=True)
@@ -213,7 +239,8 @@ def read_description(path: Path) -> Description:
     """Read the description of a surface from a TOML file.
 
     The keys are ``kind`` and the arguments of the function of that kind, lengths and angles with units ("1 mm",
-    "30 deg"). "self_affine" and "gaussian" also take a table ``[height_distribution]`` with ``skewness``.
+    "30 deg"). "self_affine" and "gaussian" also take a table ``[height_distribution]`` with ``skewness``;
+    "random_field" has tables ``[spectrum]`` and ``[population]``, which ``roughfilm fit`` writes.
 
     Raises
     ------
@@ -237,8 +264,8 @@ def read_entries(entries: Mapping[str, Any]) -> Description:
 
         def unknown(location: Location) -> tuple[str, str]:
             _, *table, key = location
-            known = HeightDistribution.model_fields if table else KINDS[entries["kind"]][0].model_fields
-            return unknown_key(key, known)
+            named = [TABLES[str(part)] for part in table if part in TABLES]
+            return unknown_key(key, (named[-1] if named else KINDS[entries["kind"]][0]).model_fields)
 
         raise InputError(in_lines(faults_of(error, unknown, lambda location: location[1:]), "surface")) from None
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.figures.relief import MAX_POINTS, MAX_SCENE_POINTS, white_plotter
 from roughfilm.figures.rendering import scalar_bar, write_picture
+from roughfilm.figures.spatial.relief import MAX_POINTS, MAX_SCENE_POINTS, white_plotter
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
 

@@ -10,7 +10,7 @@ import numpy as np
 from roughfilm.contact.mechanics.load_series import ContactSeries
 from roughfilm.contact.mechanics.store import Row
 from roughfilm.figures import contact as contact_figures
-from roughfilm.figures.pressed_surface import view_picture
+from roughfilm.figures.spatial.pressed_surface import view_picture
 from roughfilm.pages.render import render
 from roughfilm.words.contact import number_of
 from roughfilm.words.numbers import digits

@@ -11,7 +11,7 @@ from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
 from roughfilm.contact.parameters.peaks import lowest_valleys
 from roughfilm.figures import leakage as leakage_figures
-from roughfilm.figures.pressed_surface import view_picture
+from roughfilm.figures.spatial.pressed_surface import view_picture
 from roughfilm.pages.render import render
 from roughfilm.rom.seal.at_load import SealAtLoad
 from roughfilm.rom.seal.leakage.curve import SealSetup

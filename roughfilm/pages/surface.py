@@ -8,7 +8,7 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.preparation.prepare import Prepared
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD
 from roughfilm.figures import surface as surface_figures
-from roughfilm.figures.relief import surface_picture
+from roughfilm.figures.spatial.relief import surface_picture
 from roughfilm.pages.render import render
 from roughfilm.words.numbers import in_unit, percent
 from roughfilm.words.surface import preparation_steps, scale_limits

@@ -13,6 +13,7 @@ SUBJECTS: Mapping[str, str] = {
     "interface.studies": "Studies",
     "interface.cases": "OpenFOAM cases",
     "interface.surfaces": "Surfaces",
+    "interface.fitting": "Descriptions of measured surfaces",
     "interface.curves": "Curves and effects",
     "rom.ladder": "Classes of scenes and results",
     "contact.": "Quantities, surfaces and errors",

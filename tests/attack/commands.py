@@ -143,6 +143,7 @@ COMMANDS = {
     ),
     "effects": Command(words=_words("effects pad.toml --out pad --resolution 16 --json")),
     "surface": Command(words=_words("surface rough.toml --out cell.h5 --report page.html --json")),
+    "fit": Command(words=_words("fit rough.toml --windows 16 --seeds 40 --out fitted.toml --report page.html --json")),
     "windows": Command(
         words=_words("windows rough.toml --scene seal.toml --windows 6 --sizes 80um --out windows --jobs 2 --json")
     ),

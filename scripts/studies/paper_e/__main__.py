@@ -16,7 +16,7 @@ from roughfilm.contact.mechanics.gap_map import gap_map
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.solid import composite_modulus
 from roughfilm.contact.surfaces.files import read_surface
-from roughfilm.figures.pressed_surface import view_picture
+from roughfilm.figures.spatial.pressed_surface import view_picture
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, progress_bar, run_alone
 from roughfilm.words.numbers import with_error

@@ -36,7 +36,7 @@ NUMBERS |= {"complementarity", "iterations", "pressure_max", "cpu_s"}
 @pytest.fixture(autouse=True)
 def _without_pictures(monkeypatch):
     """VTK takes most of the time; one test looks at its picture."""
-    monkeypatch.setattr("roughfilm.figures.pressed_surface.draw_apart", lambda *_: ABSENT)
+    monkeypatch.setattr("roughfilm.figures.spatial.pressed_surface.draw_apart", lambda *_: ABSENT)
 
 
 def run(*arguments):

@@ -49,7 +49,7 @@ def _without_pages(monkeypatch):
 @pytest.fixture(scope="module")
 def told(place):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("roughfilm.figures.pressed_surface.draw_apart", lambda *_: ABSENT)
+        patch.setattr("roughfilm.figures.spatial.pressed_surface.draw_apart", lambda *_: ABSENT)
         return asked("leakage", place / "seal.toml", "--out", place / "out")
 
 
@@ -192,7 +192,7 @@ def test_scenes_of_other_kinds_are_refused(place):
 
 def test_a_flat_surface_is_sealed_under_the_loads_that_are_asked(place, monkeypatch):
     monkeypatch.undo()
-    monkeypatch.setattr("roughfilm.figures.pressed_surface.draw_apart", lambda *_: ABSENT)
+    monkeypatch.setattr("roughfilm.figures.spatial.pressed_surface.draw_apart", lambda *_: ABSENT)
     np.save(place / "flat.npy", np.zeros((16, 16)))
     flat = ["--set", f"geometry.surface={place / 'flat.npy'}", "--set", "geometry.spacing=1 um"]
     refused = run("leakage", place / "seal.toml", "--out", place / "flat", *flat)

@@ -36,6 +36,7 @@ RUNS = {
     "effects": ["effects parabolic_slider.toml --resolution 64 --out effects"],
     "leakage": ["leakage seal.toml --loads 1kPa,20kPa --out leakage"],
     "surface": ["surface rough.toml --out cell.h5"],
+    "fit": ["fit rough.toml --windows 16 --seeds 40"],
     "windows": ["windows rough.toml --scene seal.toml --windows 4 --size 80um --sizes 40um --jobs 1 --out windows"],
     "combine": ["combine rough.toml rough.toml", "combine rough.toml rough.toml --operation sum --out walls.h5"],
     "contact": ["contact rough.toml --modulus 10MPa --poisson 0.5 --loads 1kPa,20kPa --out contacts.h5"],

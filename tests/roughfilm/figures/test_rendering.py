@@ -53,7 +53,7 @@ def test_a_fine_surface_turns_with_at_most_a_megabyte(tmp_path):
         pytest.skip(here.detail)
     x, y = np.meshgrid(np.linspace(0, 30, 700), np.linspace(0, 30, 700), indexing="ij")
     np.savez(tmp_path / "s.npz", heights=1e-7 * np.sin(x) * np.cos(y + x / 3), spacing=[1e-7, 1e-7])
-    drawn = rendering.draw_apart("roughfilm.figures.relief", tmp_path / "s.npz", tmp_path / "s.png")
+    drawn = rendering.draw_apart("roughfilm.figures.spatial.relief", tmp_path / "s.npz", tmp_path / "s.png")
     assert drawn.available, drawn.detail
     scene = dict(chunks((tmp_path / "s.png").read_bytes()))[SCENE_CHUNK]
     assert len(scene) < 1e6

@@ -502,6 +502,16 @@ def test_the_worn_volume_is_that_of_the_scar_within_its_uncertainty() -> None:
     assert [shift.value for shift in values["shift"]] == pytest.approx([-4.3 * 2e-6, 2.6 * 2e-6], abs=0.02 * 2e-6)
 
 
+def test_seeds_of_a_description_hold_the_windows_of_a_random_surface() -> None:
+    """Of 16 windows, 13 and more lie within an interval of 95 % with a probability of 99 %."""
+    values = values_of("surfaces/description_of_a_measurement")
+    assert len(values["inside"]) == 4
+    assert min(values["inside"].values()) >= 13
+    windows, seeds = (np.array(values["skewness"][name]) for name in ("windows", "seeds"))
+    assert abs(windows.mean() - seeds.mean()) < 3.3 * np.hypot(windows.std(), seeds.std()) / 4
+    assert values["fit"].warnings == ()
+
+
 # The ladder
 
 

@@ -1,4 +1,4 @@
-"""A surface in space, by pyvista: python -m roughfilm.figures.relief SURFACE.npz PICTURE.png."""
+"""A surface in space, by pyvista: python -m roughfilm.figures.spatial.relief SURFACE.npz PICTURE.png."""
 
 import sys
 from pathlib import Path
@@ -29,7 +29,7 @@ def surface_picture(surface: Surface) -> tuple[str | None, str]:
     with scratch_directory() as folder:
         file, picture = folder / "surface.npz", folder / "surface.png"
         np.savez(file, heights=surface.heights, spacing=np.array(surface.spacing))
-        drawn = draw_apart("roughfilm.figures.relief", file, picture)
+        drawn = draw_apart("roughfilm.figures.spatial.relief", file, picture)
         return (embedded(picture), "") if drawn.available else (None, drawn.detail)
 
 

@@ -1,4 +1,4 @@
-"""A surface in space under loads, by pyvista: python -m roughfilm.figures.pressed_surface VIEWS.npz PICTURE.png."""
+"""A surface in space under loads, by pyvista: python -m roughfilm.figures.spatial.pressed_surface VIEWS.npz OUT.png."""
 
 import sys
 from collections.abc import Sequence
@@ -9,8 +9,8 @@ import numpy as np
 
 from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.contact.mechanics.gap_map import GapMap
-from roughfilm.figures.relief import MAX_POINTS, MAX_SCENE_POINTS, add_relief, white_plotter
 from roughfilm.figures.rendering import draw_apart, embedded, scalar_bar, write_picture
+from roughfilm.figures.spatial.relief import MAX_POINTS, MAX_SCENE_POINTS, add_relief, white_plotter
 
 PANEL = (760, 560)
 """Pixels."""
@@ -30,7 +30,7 @@ def view_picture(views: Sequence[GapMap]) -> tuple[str | None, str]:
             spacing=np.array(first.spacing),
             relief=first.relief,
         )
-        drawn = draw_apart("roughfilm.figures.pressed_surface", file, picture)
+        drawn = draw_apart("roughfilm.figures.spatial.pressed_surface", file, picture)
         return (embedded(picture), "") if drawn.available else (None, drawn.detail)
 
 

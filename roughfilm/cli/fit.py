@@ -1,0 +1,115 @@
+"""roughfilm fit: a description whose seeds scatter as the windows of a surface do, and how well."""
+
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.table import Table
+
+from roughfilm.contact.fitting.text import DESCRIPTION, description_text
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.timing import stopwatch
+from roughfilm.contact.foundation.units import to_si
+from roughfilm.contact.foundation.writing.kinds import PAGE
+from roughfilm.contact.preparation.recipe import load_recipe
+from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.fitting.run import AREA, COUNT, SEEDS, fit_windows
+from roughfilm.sampling.plan import USUAL
+from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, progress_bar
+from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
+from roughfilm.terminal.results import origin, show_result, table_of, written
+from roughfilm.words.fit import HEADS, entries_of, headline, length, notes, rows
+
+EXAMPLES = (
+    "roughfilm fit measured.x3p --out fitted.toml --report fitted.html",
+    "roughfilm fit measured.x3p --size 0.2mm --windows 64 --area 5% --out fitted.toml",
+)
+
+SOURCES = ("10.1103/PhysRevLett.77.635", "A. Gelman et al., Bayesian Data Analysis, section 3.6")
+
+COMPUTED = 0.97
+"""Done fraction before the page is drawn."""
+
+
+def command(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="A measured surface, or a description (TOML).")],
+    out: Annotated[Path | None, typer.Option(help="Write the description here (TOML).", rich_help_panel=OUTPUT)] = None,
+    report: ReportFile = None,
+    windows: Annotated[int, typer.Option("--windows", help="Windows, half of which are held out in turn.")] = COUNT,
+    size: Annotated[
+        str | None,
+        typer.Option(metavar="L", help="Side of the windows, e.g. 0.1mm (default: all fit without overlap)."),
+    ] = None,
+    area: Annotated[
+        str, typer.Option(metavar="A", help="Contact area at which windows and seeds are compared.")
+    ] = f"{100 * AREA:g}%",
+    seeds: Annotated[int, typer.Option(help="Seeds by which each half is judged.")] = SEEDS,
+    recipe: Annotated[Path | None, typer.Option("--prepare", help="The recipe (TOML; default: the usual one).")] = None,
+    set_: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="Override a key of it, e.g. form=tilt; repeatable."),
+    ] = None,
+    overwrite: Overwrite = False,
+    as_json: AsJson = False,
+) -> None:
+    """Fit a random description to the windows of a surface, and judge it by windows that it has not seen."""
+    refuse_same({"FILE": file, "--prepare": recipe, "--out": out, "--report": report})
+    spent, steps = stopwatch(), load_recipe(recipe, set_ or (), None if recipe else USUAL)
+    side = None if size is None else _si("--size", size, "m")
+    fraction = _si("--area", area, "%") / 100
+    with progress_bar(1.0) as advance:
+        advance(0.0, f"reading {file.name}")
+        given: Surface | Path = file
+        if file.suffix.lower() != ".toml":
+            read = steps.read
+            given = read_surface(file, channel=read.channel, spacing=read.spacing, height_unit=read.height_unit)
+        elif recipe or set_:
+            raise InputError(f"{file}: is described and periodic; leave out --prepare and --set")
+        refuse_unwritable((out, DESCRIPTION), (report, PAGE), overwrite=overwrite)
+        fit = fit_windows(
+            given,
+            steps,
+            count=windows,
+            size=side,
+            area=fraction,
+            seeds=seeds,
+            name=file.name,
+            progress=lambda done, words: advance(COMPUTED * done, words),
+        )
+        entries = {
+            **entries_of(fit),
+            "numerics": {"windows": len(fit.windows), "seeds": 3 * seeds, **spent()},
+            "provenance": origin(SOURCES, fit.warnings, surface=dict(fit.plan.source)),
+        }
+        with ExitStack() as both:  # neither is renamed into place before both are whole
+            text, page = (
+                path and both.enter_context(replacing(path, kind, overwrite=overwrite))
+                for path, kind in ((out, DESCRIPTION), (report, PAGE))
+            )
+            if text is not None:
+                text.write_text(description_text(fit.description, notes(fit)), encoding="utf-8")
+            if page is not None:
+                from roughfilm.pages.fit import write_page  # matplotlib is slow to import
+
+                advance(COMPUTED, "drawing the page")
+                write_page(fit, entries, page)
+
+    def shown() -> Iterator[Table | str]:
+        side = length(fit.group.size)
+        title = f"{len(fit.windows)} windows of {side} and {seeds} seeds at {100 * fit.area:.3g} % contact"
+        yield table_of(HEADS, rows(fit), title=title, left=1)
+        for one in fit.findings:
+            yield f"{'lacking' if one.lacking else 'windows'}: {one.text}"
+
+    show_result(entries, shown(), as_json=as_json, summary=written(headline(fit), out, report))
+
+
+def _si(option: str, text: str, unit: str) -> float:
+    try:
+        return to_si(text.strip(), unit)
+    except ValueError as error:
+        raise InputError(f"{option}: {error}") from None
