@@ -5,7 +5,7 @@ import os
 import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, cast, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,10 +26,8 @@ from roughfilm.contact.surfaces import files
 from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, Surface
 from roughfilm.contact.synthetic.description import make, read_description
-from roughfilm.rom.homogenization.conductance import FaceRule
-from roughfilm.rom.homogenization.factors import relative_quantities
-from roughfilm.rom.homogenization.flow_factors import flow_factors as factors_of
-from roughfilm.rom.homogenization.table.separation import Separations
+from roughfilm.interface.cells import CellSet, checked_windows
+from roughfilm.rom.homogenization.table.windows import factors_at, point_quantities
 from roughfilm.rom.ladder.model import Progress, silent
 
 Heights = ArrayLike | Surface
@@ -383,7 +381,7 @@ def press(
 
 
 def flow_factors(
-    heights: Heights,
+    heights: Heights | CellSet | Sequence[Surface],
     *,
     spacing: float | Sequence[float] | None = None,
     gap: float,
@@ -398,7 +396,8 @@ def flow_factors(
 
     Parameters
     ----------
-    heights : z, shape (nx, ny), m, upward, towards the smooth wall, one period; or a Surface.
+    heights : z, shape (nx, ny), m, upward, towards the smooth wall, one period; or a Surface; or several windows, as
+        :func:`roughfilm.windows` returns them, or a list of Surfaces.
     spacing : distance of neighbouring points, m, or a pair (dx, dy); not for a Surface.
     gap : mean gap ĥ, m, before the offset.
     offset : length added to the gap everywhere, m; 0 closes the film where the walls touch.
@@ -409,7 +408,8 @@ def flow_factors(
     dict of Quantity
         A11, A12, A21, A22, B1, B2, d, e with their uncertainties (None if unknown), ``mean_gap`` and ``separation``
         (the distance of the mean planes), both in m, and ``contact``, the area fraction in contact. A direction whose A
-        is 0 is sealed.
+        is 0 is sealed. Over several windows of this mean gap they are means; A11 to e then have ``scatter``, the half
+        width of their 95 % confidence interval from how the windows differ, and ``window_interval``, that for one.
 
     Raises
     ------
@@ -438,17 +438,32 @@ def flow_factors(
     >>> round(factors["A11"].value, 3), round(factors["A22"].value, 3)
     (0.706, 1.167)
     """
-    surface = surface_of(heights, spacing)
-    walls = Separations(heights=surface.heights)
-    separation = walls.at_mean_gap(in_range("gap", gap, "m"))
-    added = in_range("offset", offset, "m", zero=True)
+    mean_gap, added = in_range("gap", gap, "m"), in_range("offset", offset, "m", zero=True)
+    if _are_windows(heights):
+        if spacing is not None:
+            raise InputError(f"spacing: got {spacing!r}; the windows have their own, leave it out")
+        windows = checked_windows(heights)
+        surfaces, independent = windows.cells, windows.independent
+    else:
+        surfaces, independent = (surface_of(cast("Heights", heights), spacing),), None
     with finite_arithmetic("flow_factors"):
-        found = factors_of(
-            walls.gap(separation), surface.spacing, rule=FaceRule.LINEAR, offset=added, progress=progress
+        point = factors_at(
+            [surface.heights for surface in surfaces],
+            surfaces[0].spacing,
+            mean_gap,
+            independent=independent,
+            offset=added,
+            progress=progress,
         )
     return {
-        **relative_quantities(found.factors, found.uncertainty),
-        "mean_gap": Quantity(value=found.factors.mean_gap, unit="m"),
-        "separation": Quantity(value=separation, unit="m"),
-        "contact": Quantity(value=found.contact, unit="1"),
+        **point_quantities(point),
+        "mean_gap": Quantity(value=point.mean_gap, unit="m"),
+        "separation": Quantity(value=point.separation, unit="m"),
+        "contact": Quantity(value=point.contact, unit="1"),
     }
+
+
+def _are_windows(heights: object) -> bool:
+    """Whether an argument is a set of windows, or a list whose first entry is a surface."""
+    listed = isinstance(heights, list | tuple) and len(heights) > 0 and isinstance(heights[0], Surface)
+    return listed or (hasattr(heights, "cells") and hasattr(heights, "independent"))

@@ -55,7 +55,7 @@ FRICTION = 0.1
 
 
 def _asperities(wall: Wall) -> AsperityTable:
-    assert wall.asperities is not None
+    assert isinstance(wall.asperities, AsperityTable)
     return wall.asperities
 
 
