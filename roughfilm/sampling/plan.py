@@ -170,7 +170,7 @@ def _of_measurement(
         source={"prepared_from": dict(surface.source), "recipe": recipe_entries(recipe)},
         surface=filled,
         decay=(found.shortest, found.longest),
-        warnings=tuple(warnings),
+        warnings=(*levelled.warnings, *warnings),
     )
 
 
