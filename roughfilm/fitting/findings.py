@@ -18,13 +18,16 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.fitting.quantities import NAMES, quantities_of
-from roughfilm.sampling.plan import Group
+from roughfilm.sampling.plan import DECAY_LENGTHS, Group
 
 RARE = 1e-3
 """Probability of a difference between windows and their copies of random phase below which it is stated."""
 
 LEAST_RATIO = 1.15
 """Smallest ratio of medians that is stated."""
+
+LEAST_SCATTER = 1.25
+"""Smallest ratio of deviations of logarithms that is stated."""
 
 LEAST_FLATNESS = 0.1
 """Smallest difference of the logarithms of slopes that is stated as plateaus."""
@@ -45,7 +48,8 @@ class Finding:
 
     Attributes
     ----------
-    name : "grooves", "pressure", "valleys", "scratches", "plateaus", "drift" or "spread".
+    name : "grooves", "pressure", "valleys", "scatter", "scratches", "plateaus", "drift", "short"
+        or "spread".
     text : a sentence with its numbers.
     lacking : whether seeds of the description lack it.
     """
@@ -97,14 +101,23 @@ def structure_of(cells: Sequence[Surface], load: float, progress: Callable[[str]
     )
 
 
-def findings_of(group: Group, windows: Array, structure: Structure) -> tuple[Finding, ...]:
-    """The findings on the windows of a surface, those that a description lacks first."""
+def findings_of(group: Group, windows: Array, structure: Structure, sal: float | None = None) -> tuple[Finding, ...]:
+    """The findings on the windows of a surface, those that a description lacks first.
+
+    Parameters
+    ----------
+    group : the windows.
+    windows : their quantities, shape (n, 4).
+    structure : their comparison with copies of random phase.
+    sal : decay length Sal of the surface, m; None if it is unknown.
+    """
     found = [
         *_grooves(structure.line, len(windows)),
         *_phases(windows, structure.copies),
         *_scratches(structure),
         *_plateaus(structure.flatness),
         *_drift(group),
+        *_short(group.size, sal),
         *_spread(group.cells),
     ]
     return tuple(sorted(found, key=lambda one: not one.lacking))
@@ -135,13 +148,14 @@ def _phases(windows: Array, copies: Array) -> Iterator[Finding]:
         difference = np.diff(np.log(np.maximum(pair, FLOOR * pair.max())), axis=1)[:, 0]
         ratio = math.exp(float(np.median(difference)))
         if not _systematic(difference) or max(ratio, 1 / ratio) < LEAST_RATIO:
+            yield from _scatter(name, np.log(np.maximum(pair, FLOOR * pair.max())))
             continue
         if k == 0:
             yield Finding(
                 name="pressure",
                 text="heights are correlated beyond the spectrum: with random phases but their own spectra and heights "
                 f"the windows have {_times(ratio)} mean contact pressure (median), since "
-                + ("the shape of their peaks is lost" if ratio > 1 else "their peaks are blunter than random ones"),
+                + f"their peaks are {'blunter' if ratio > 1 else 'sharper'} than random ones",
                 lacking=True,
             )
         else:
@@ -152,6 +166,30 @@ def _phases(windows: Array, copies: Array) -> Iterator[Finding]:
                 "(median)",
                 lacking=True,
             )
+
+
+def _scatter(name: str, logarithms: Array) -> Iterator[Finding]:
+    """Whether windows scatter more than their copies (Brown and Forsythe)."""
+    own, copies = logarithms.T
+    ratio = float(own.std() / copies.std()) if copies.std() > 0 else math.inf
+    if ratio > LEAST_SCATTER and scipy.stats.levene(own, copies, center="median").pvalue < RARE:
+        yield Finding(
+            name="scatter",
+            text=f"the windows scatter {ratio:.2g} times as much in {name} as with random phases but their own spectra "
+            "and heights",
+            lacking=True,
+        )
+
+
+def _short(side: float, sal: float | None) -> Iterator[Finding]:
+    if sal is None or side >= DECAY_LENGTHS * sal:
+        return
+    yield Finding(
+        name="short",
+        text=f"windows are {side / sal:.2g} decay lengths Sal long; below {DECAY_LENGTHS:g} a few valleys and the "
+        "joint of the edges decide how much a window leaks",
+        lacking=False,
+    )
 
 
 def _scratches(structure: Structure) -> Iterator[Finding]:

@@ -1,5 +1,6 @@
 """The fit of a description to the windows of a surface, and its judgement."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,7 +19,7 @@ from roughfilm.fitting.findings import Finding, findings_of, structure_of
 from roughfilm.fitting.judge import Held, halves, held_out, seeds_of
 from roughfilm.fitting.quantities import load_at_area, quantities_of, refuse_area
 from roughfilm.rom.ladder.model import Progress
-from roughfilm.sampling.plan import MIN_PIXELS, Group, Plan, planned
+from roughfilm.sampling.plan import MIN_PIXELS, PIXEL_STEP, Group, Plan, planned
 
 COUNT = 48
 """Default number of windows."""
@@ -90,6 +91,13 @@ def side_of_squares(size: tuple[float, float], count: int) -> float:
     return low
 
 
+def side_of_windows(surface: Surface, count: int) -> float:
+    """The default side of the windows, m: squares that fit, of whole pixels as in `planned`, at least 32 of them."""
+    side = side_of_squares(surface.size, count)
+    whole = min(PIXEL_STEP * step * math.floor(side / (PIXEL_STEP * step) + 1e-9) for step in surface.spacing)
+    return max(whole, min(MIN_PIXELS * max(surface.spacing), *surface.size))
+
+
 def fit_windows(
     given: Surface | Path,
     recipe: Recipe,
@@ -131,8 +139,7 @@ def fit_windows(
         raise InputError(f"seeds: got {seeds}; a 95 % interval needs 40 or more")
     refuse_area(area)
     if size is None and isinstance(given, Surface):
-        least = MIN_PIXELS * max(given.spacing)
-        size = max(side_of_squares(given.size, count), min(least, *given.size))
+        size = side_of_windows(given, count)
     elif size is None and isinstance(given, Path):
         size = min(read_description(given).size)
     plan = planned(
@@ -153,6 +160,7 @@ def fit_windows(
         progress(PREPARED + (1 - PREPARED) * done / total, words)
         done += 1
 
+    progress(PREPARED, "choosing the load")
     load = load_at_area(cells, area)
     windows = []
     for number, cell in enumerate(cells):
@@ -166,7 +174,7 @@ def fit_windows(
     description = fit_random_field(cells, worth)
     of_seeds = seeds_of(description, seeds, load, count_one)
     structure = structure_of(cells, load, count_one)
-    findings = findings_of(group, measured, structure)
+    findings = findings_of(group, measured, structure, plan.decay[0])
     return Fit(
         name=name,
         description=description,
@@ -191,7 +199,7 @@ def _warnings(plan: Plan, held: Mapping[str, Held], findings: tuple[Finding, ...
         )
     failing = [f"{name}: {held_in_words(one)}" for name, one in held.items() if one.fails]
     if failing:
-        reasons = [one.text for one in findings if one.lacking]
+        reasons = [one.text for one in findings if one.lacking or one.name in ("drift", "short")]
         why = "; why: " + "; ".join(reasons) if reasons else "; no test of phases, grooves, scratches or drift says why"
         warnings.append(f"seeds do not scatter as the windows do ({'; '.join(failing)}){why}")
     return warnings

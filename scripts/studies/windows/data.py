@@ -15,7 +15,7 @@ from roughfilm.contact.windows.places import independent_windows
 from roughfilm.fitting.findings import findings_of, structure_of
 from roughfilm.fitting.judge import halves, held_out
 from roughfilm.fitting.quantities import NAMES, load_at_area, quantities_of
-from roughfilm.fitting.run import side_of_squares
+from roughfilm.fitting.run import side_of_windows
 from roughfilm.rom.ladder.provenance import imported_code
 from roughfilm.sampling.plan import Group, planned
 from scripts.studies.study import kept
@@ -118,7 +118,7 @@ def examined(file: Path, area: float, keep: Path | None, advance: Callable[[str]
 
 def _examine(file: Path, area: float, advance: Callable[[str], None]) -> Examined:
     surface = read_surface(file, **SURFACES[file.name])
-    side = side_of_squares(surface.size, WINDOWS)
+    side = side_of_windows(surface, WINDOWS)
     plan = planned(
         surface,
         read_recipe({"grid": {"points": [POINTS, POINTS]}}),
