@@ -1,9 +1,9 @@
 """What windows say of the whole surface
 =====================================
 
-How well does one window know a surface? The rms height is computed in windows of three sizes. Smaller windows scatter
-more, and the margin that joins their edges is a larger part of them. The mean over the inverse of the side leads to the
-whole surface, whose rms height is 1 µm here.
+How well does one window describe a surface? The rms height is computed in windows of three sizes. Smaller windows
+scatter more, and they lack waves that are longer than they are. The mean over the inverse of the side leads to the whole
+surface, whose rms height is 1 µm here.
 """
 
 import tempfile
