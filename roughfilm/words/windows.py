@@ -29,8 +29,8 @@ PLAIN = {
 """Names in a sentence of quantities that a kind of scene does not name."""
 
 
-LARGE = 0.5
-"""Relative uncertainty from which on it is given as a factor."""
+LARGE, TOO_LARGE = 0.5, 100
+"""Relative uncertainty from which on it is given as a factor, and the largest factor that is given as a number."""
 
 
 def title_of(name: str, kind: str) -> str:
@@ -71,19 +71,21 @@ def headline(answer: Answer, kind: str) -> str:
         parts.append(f"{side} {ends(found, scale)} (95 %)")
         if found.relative is not None:
             needed = f"; {one.needed} windows for {share(answer.tolerance)}" if one.needed is not None else ""
-            parts.append(f"mean known to {known_to(found)}{needed}")
+            parts.append(f"mean known to {known_to(found, scale)}{needed}")
     return ", ".join(parts)
 
 
-def known_to(found: Scatter) -> str:
-    """The relative uncertainty of a mean in words: per cent, or a factor where a positive mean has a large one."""
-    if found.relative is None:
+def known_to(found: Scatter, scale: Scale) -> str:
+    """The uncertainty of a mean in words: per cent; where it is large, a factor of a positive mean, else its value."""
+    if found.relative is None or found.mean_uncertainty is None:
         return "unknown"
     if found.relative == 0:
         return EXACT
-    if found.positive and found.relative > LARGE:
-        return f"a factor of {1 + found.relative:.2g}"
-    return share(found.relative)
+    if found.relative <= LARGE:
+        return share(found.relative)
+    if not found.positive:
+        return f"± {scale.number(found.mean_uncertainty)}"
+    return f"a factor of {1 + found.relative:.2g}" if found.relative < TOO_LARGE else f"a factor above {TOO_LARGE}"
 
 
 def size_part(one: WindowQuantity, scale: Scale) -> str:
@@ -127,7 +129,7 @@ def quantity_cells(name: str, one: WindowQuantity, kind: str) -> tuple[str, ...]
     return (
         scale.label(title_of(name, kind)),
         scale.number(found.mean),
-        known_to(found),
+        known_to(found, scale),
         ends(found, scale),
         "unknown" if one.numerical is None else scale.number(one.numerical),
         size_part(one, scale),
