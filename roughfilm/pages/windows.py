@@ -58,7 +58,7 @@ def write_page(
         entries=entries,
         warnings=answer.warnings,
         least=MIN_INDEPENDENT,
-        known=None if one.scatter.relative is None else known_to(one.scatter),
+        known=None if one.scatter.relative is None else known_to(one.scatter, scale),
         places=window_figures.places(plan.surface, plan.groups) if plan.surface is not None else None,
         seeds=window_figures.seeds(plan.groups[0]) if plan.surface is None else None,
         values=window_figures.values(shown),
