@@ -87,3 +87,19 @@ def _excess(lines: Array, lag: int) -> float:
     inside = (sums[lag : count - lag + 1] - sums[: count - 2 * lag + 1]) / lag
     joint = (sums[count] - sums[count - lag]) / lag
     return float(joint - np.quantile(inside, INTERIOR_QUANTILE))
+
+
+def joint_mismatch(surface: Surface) -> float:
+    """The periodicity mismatch along the joint of a surface.
+
+    A prepared surface has it in its record, since seams join it away from pixel 0; for all others it is
+    `periodicity_mismatch` at pixel 0.
+    """
+    known = surface.source.get("record", {}).get("periodicity_mismatch")
+    return periodicity_mismatch(surface) if known is None else float(known["after"])
+
+
+def is_joined_at_pixel_0(surface: Surface) -> bool:
+    """Whether opposite edges meet between the last pixel and pixel 0: everywhere but on surfaces joined along seams."""
+    edges = surface.source.get("record", {}).get("edges", {})
+    return bool(edges.get("method") != "seams")

@@ -8,7 +8,7 @@ from pydantic import model_validator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Length
-from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, joint_mismatch
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.sinusoids import sinusoid
 from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
@@ -126,7 +126,7 @@ def _centred(surface: Surface) -> Array:
 
 @lru_cache(maxsize=4)
 def _mismatch(wall: str) -> float:
-    return periodicity_mismatch(SurfaceGeometry.model_validate_json(wall).read())
+    return joint_mismatch(SurfaceGeometry.model_validate_json(wall).read())
 
 
 @lru_cache(maxsize=4)

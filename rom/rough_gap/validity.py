@@ -3,7 +3,7 @@
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, joint_mismatch
 from roughfilm.rom.parts.surroundings import rupture_warnings
 from roughfilm.rom.rough_gap.flow.range_of_validity import (
     MAX_ADDED_DISSIPATION,
@@ -63,7 +63,7 @@ def cautions(scene: RoughGap, walls: Walls) -> tuple[str, ...]:
     rough = [scene.geometry, *([scene.geometry.upper] if scene.geometry.upper else [])]
     for wall in rough:
         warnings += wall.warnings()
-        mismatch = 0.0 if wall.described else periodicity_mismatch(wall.read())
+        mismatch = 0.0 if wall.described else joint_mismatch(wall.read())
         if mismatch > MISMATCH_THRESHOLD:
             warnings.append(f"{wall.name} is not periodic (edge mismatch {mismatch:.2g}), which may reduce the flow")
     return tuple(warnings)

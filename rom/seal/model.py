@@ -161,18 +161,18 @@ def quantities(
 def _warnings(scene: Seal, contact: Contact) -> tuple[str, ...]:
     from roughfilm.contact.surfaces.periodicity import (  # scipy is slow to import
         MISMATCH_THRESHOLD,
-        periodicity_mismatch,
+        is_joined_at_pixel_0,
+        joint_mismatch,
     )
-    from roughfilm.rom.seal.leakage.joint import joint_seals
+    from roughfilm.rom.seal.leakage.joint import EDGE_REMEDY, joint_seals
 
     surface = scene.surface()
-    mismatch = 0.0 if scene.geometry.described else periodicity_mismatch(surface)
+    mismatch = 0.0 if scene.geometry.described else joint_mismatch(surface)
     if not mismatch > MISMATCH_THRESHOLD:
         return ()
-    effect = "seals only at the edge" if joint_seals(contact.gap)[scene.axis] else "may leak less at the edge"
-    return (
-        f"the surface is not periodic (edge mismatch {mismatch:.2g}) and {effect}; prepare it again with edge blending",
-    )
+    at_edge = is_joined_at_pixel_0(surface) and joint_seals(contact.gap)[scene.axis]
+    effect = "seals only at the edge" if at_edge else "may leak less at the edge"
+    return (f"the surface is not periodic (edge mismatch {mismatch:.2g}) and {effect}; {EDGE_REMEDY}",)
 
 
 def applies(scene: Seal, *, keeps: str) -> Applicability:

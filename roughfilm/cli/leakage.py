@@ -13,11 +13,11 @@ from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.mechanics.store import load_contact
-from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, is_joined_at_pixel_0, joint_mismatch
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
 from roughfilm.rom.seal.at_load import SealAtLoad, seal_at_load
 from roughfilm.rom.seal.leakage.curve import SealSetup, chosen_loads, columns_of, seal_setup, sealing, solved
-from roughfilm.rom.seal.leakage.joint import joint_seals
+from roughfilm.rom.seal.leakage.joint import EDGE_REMEDY, joint_seals
 from roughfilm.rom.seal.leakage.percolation import Threshold
 from roughfilm.rom.seal.leakage.series import SOUGHT, Row
 from roughfilm.rom.seal.scene import Seal
@@ -175,16 +175,15 @@ def _warnings(seal: Seal, body: SealSetup, rows: Mapping[float, Row], thresholds
 
 def _edge_warnings(body: SealSetup, rows: Mapping[float, Row]) -> list[str]:
     """Warnings of the edges of a measured surface, which is repeated periodically."""
-    mismatch, where = periodicity_mismatch(body.surface), []
-    for number, axis in enumerate("xy"):
+    mismatch, where = joint_mismatch(body.surface), []
+    for number, axis in enumerate("xy" if is_joined_at_pixel_0(body.surface) else ""):
         first = next((load for load, row in rows.items() if getattr(row, f"direct_{axis}_sealed")), None)
         if first is not None and joint_seals(load_contact(body.contacts, first).gap)[number]:
             where.append(axis)
     edges = f"the edge in {' and '.join(where)}"
     if mismatch > MISMATCH_THRESHOLD:
         effect = f"seals first at {edges}" if where else "may leak less across its edges"
-        remedy = "prepare it again with edge blending"
-        return [f"the surface is not periodic (edge mismatch {mismatch:.2g}) and {effect}; {remedy}"]
+        return [f"the surface is not periodic (edge mismatch {mismatch:.2g}) and {effect}; {EDGE_REMEDY}"]
     warnings = [] if body.surface.periodic else ["the surface is not marked as periodic; it is taken as one period"]
     if where:
         warnings.append(

@@ -11,7 +11,7 @@ import numpy as np
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
-from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, joint_mismatch
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.film import MixedFilm
@@ -87,7 +87,7 @@ def wall_of(scene: Bearing, largest: float, table: Path | None, out: Path, progr
     surface = scene.roughness if isinstance(scene.roughness, RoughSurface) else None
     warnings: list[str] = []
     if surface is not None and not surface.read().periodic:
-        mismatch = periodicity_mismatch(surface.read())
+        mismatch = joint_mismatch(surface.read())
         if mismatch > MISMATCH_THRESHOLD:
             warnings.append(
                 f"{surface.name} is not periodic (edge mismatch {mismatch:.2g}): steps at its edges restrict the flow; "

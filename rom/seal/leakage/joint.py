@@ -5,6 +5,9 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.homogenization.paths import sealed_between_ends
 
+EDGE_REMEDY = "prepare it by roughfilm surface, with another window or a larger edges.width"
+"""What to do about a surface that is not periodic, for messages."""
+
 SIDE_TO_MARGIN = 16
 """Ratio of a side to the margin that is removed at each of its ends."""
 
