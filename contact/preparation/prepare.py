@@ -9,33 +9,20 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Mask
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
-from roughfilm.contact.parameters.spectrum import power_spectrum, texture_direction
-from roughfilm.contact.preparation.edges import MIN_WIDTH, Direction, largest_width, make_periodic
+from roughfilm.contact.preparation.edges.join import join_edges
+from roughfilm.contact.preparation.edges.joined import Joined, seam_pixels
 from roughfilm.contact.preparation.filling import fill_invalid
 from roughfilm.contact.preparation.filters import l_filter, nesting_warnings, s_filter
 from roughfilm.contact.preparation.form import remove_form
 from roughfilm.contact.preparation.grid import next_power_of_two, resample
 from roughfilm.contact.preparation.outliers import cut_outliers
-from roughfilm.contact.preparation.recipe import Edges, Grid, Recipe, Sampling, recipe_entries
+from roughfilm.contact.preparation.recipe import Grid, Recipe, Sampling, recipe_entries
 from roughfilm.contact.preparation.smoothing import smooth
 from roughfilm.contact.preparation.spikes import Spikes, find_spikes
 from roughfilm.contact.preparation.window import Window, best_window, cut_window
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
-
-EDGE_WIDTH = 1 / 2
-"""Default standard deviation of the edge filter, in units of Sal."""
-
-MIN_WIDTH_OF_SIDE, MAX_WIDTH_OF_SIDE = 1 / 80, 1 / 40
-"""Limits of the default standard deviation, in units of the shorter side."""
-
-STRONG_LAY = 0.3
-"""Texture aspect ratio Str below which a surface is anisotropic (ISO 25178-3)."""
-
-NEAR_AXIS = 30.0
-"""Angle between lay and axis, degrees, up to which the lay counts as parallel to the axis."""
 
 MAX_WINDOW_PIXELS = 1e9
 """Bound on size and start of a window, pixels, larger than any surface; it prevents overflow."""
@@ -67,6 +54,7 @@ class Prepared:
     filled : ``measured`` after clipping, with invalid points, spikes and rims filled.
     cell : ``filled`` cut to its window and resampled; edges as measured.
     joined : ``cell`` with joined edges.
+    joint : where opposite edges meet and which points were blended, on the pixels of the measurement or of ``cell``.
     surface : ``joined`` after smoothing: the periodic cell.
     record : data and changes of each step, as entries that JSON can hold.
     warnings : reasons why the cell may misrepresent the surface, one sentence each.
@@ -76,6 +64,7 @@ class Prepared:
     filled: Surface
     cell: Surface
     joined: Surface
+    joint: Joined
     surface: Surface
     record: Mapping[str, Any]
     warnings: tuple[str, ...]
@@ -170,22 +159,26 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
     surface, filled, guessed = levelled.original, levelled.filled, levelled.trusted.invalid
     if window is None:
         window = _window(filled, recipe.window, guessed)
-    windowed = cut_window(filled, window)
+    cut_window(filled, window)  # refuses a window that is not inside the surface
     in_window = float(guessed[window.slices].mean())
     if in_window > MAX_INVALID_FRACTION:
         raise InputError(f"window: {100 * in_window:.0f} % of its points are invalid; choose another window")
-    cell = resample(windowed, _points(window.shape, recipe.grid), recipe.grid.method)
-    direction, width, reason = _edges(cell, recipe.edges)
-    joined = make_periodic(cell, direction, width=width)
-    smoothed = smooth(joined, recipe.smoothing)
+    cell, joint, window, edges = join_edges(
+        filled,
+        window,
+        recipe.edges,
+        lambda part: resample(part, _points(part.shape, recipe.grid), recipe.grid.method),
+        filled=guessed,
+    )
+    smoothed = smooth(joint.surface, recipe.smoothing)
     _refuse_constant(smoothed, surface)
-    mismatch = periodicity_mismatch(smoothed)
+    mismatch = periodicity_mismatch(smoothed, seam_pixels(joint.seams, smoothed))
     record = {
         **levelled.record,
         "filled": {**levelled.record["filled"], "in_window": in_window},
         "window": {"start": list(window.start), "pixels": list(window.shape)},
         "grid": {"points": list(cell.shape), "spacing": list(cell.spacing)},
-        "edges": {"direction": direction, "width": list(width), "reason": reason},
+        "edges": edges,
         "periodicity_mismatch": {"before": periodicity_mismatch(cell), "after": mismatch},
     }
     source = {"prepared_from": dict(surface.source), "recipe": recipe_entries(recipe), "record": record}
@@ -193,7 +186,8 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
         measured=levelled.measured,
         filled=filled,
         cell=cell,
-        joined=joined,
+        joined=joint.surface,
+        joint=joint,
         surface=smoothed.with_heights(smoothed.heights, source=source),
         record=record,
         warnings=(*levelled.warnings, *_warnings(record)),
@@ -254,32 +248,6 @@ def _points(shape: tuple[int, int], grid: Grid) -> tuple[int, int]:
     if nx * ny > MAX_POINTS:
         raise InputError(f"grid: got {nx} x {ny} points; at most {MAX_POINTS} are made; set fewer in grid.points")
     return nx, ny
-
-
-def _edges(surface: Surface, edges: Edges) -> tuple[Direction, tuple[float, float], str]:
-    decay = decay_lengths(autocorrelation(surface), surface.spacing)
-    width = _width(surface, decay.shortest) if edges.width is None else (edges.width, edges.width)
-    if edges.direction != "auto":
-        return edges.direction, width, "given"
-    angle = texture_direction(power_spectrum(surface))
-    from_x = min(angle, 180 - angle)
-    texture = f"Str {decay.aspect:.2f}, lay at {round(angle) % 180} degrees"
-    if decay.aspect < STRONG_LAY and from_x <= NEAR_AXIS:
-        return "x", width, f"{texture}: joined along the lay only"
-    if decay.aspect < STRONG_LAY and 90 - from_x <= NEAR_AXIS:
-        return "y", width, f"{texture}: joined along the lay only"
-    return "both", width, f"{texture}: no strong lay along an axis"
-
-
-def _width(surface: Surface, correlation_length: float) -> tuple[float, float]:
-    """The default width of the edge filter along x and y, m, limited to the range that the pixels allow."""
-    side = min(surface.size)
-    usual = min(max(EDGE_WIDTH * correlation_length, MIN_WIDTH_OF_SIDE * side), MAX_WIDTH_OF_SIDE * side)
-    x, y = (
-        max(min(usual, largest_width(count) * step), MIN_WIDTH * step)
-        for count, step in zip(surface.shape, surface.spacing, strict=True)
-    )
-    return x, y
 
 
 def _warnings(record: Mapping[str, Any]) -> list[str]:

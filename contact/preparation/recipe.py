@@ -12,7 +12,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.faults import faults_of, in_lines, known_keys, unknown_key
 from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.toml import read_toml, set_entry
-from roughfilm.contact.preparation.edges import Direction
+from roughfilm.contact.preparation.edges.blending import Direction
 from roughfilm.contact.preparation.form import Form
 from roughfilm.contact.preparation.grid import Method
 
@@ -57,11 +57,14 @@ class Grid(Part):
 
 
 class Edges(Part):
-    """Direction in which edges are joined, and the standard deviation of the filter (m), by default half of Sal.
+    """How edges are joined, in which direction, and the width of the joint (m), by default half of Sal.
 
-    ``"auto"`` joins along the lay of an anisotropic surface, otherwise in both directions.
+    ``"seams"`` joins along seams through an overlap, where the heights fit; ``"blended"`` blends the margin with a
+    low-pass filtered copy, as in the source. ``"auto"`` joins in both directions; blended edges are joined along a
+    strong lay only.
     """
 
+    method: Literal["seams", "blended"] = "seams"
     direction: Direction | Literal["auto"] = "auto"
     width: Length | None = None
 

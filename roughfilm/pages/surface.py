@@ -62,6 +62,7 @@ def write_page(
         maps=surface_figures.height_maps(prepared),
         picture=picture,
         missing=missing,
+        joining=prepared.record["edges"],
         joints=surface_figures.joints(prepared),
         edges=surface_figures.edge_profiles(prepared),
         bearing=surface_figures.bearing_curves(prepared),

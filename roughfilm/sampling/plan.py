@@ -11,7 +11,7 @@ import numpy as np
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
-from roughfilm.contact.preparation.edges import MIN_WIDTH, largest_width
+from roughfilm.contact.preparation.edges.join import width_limits
 from roughfilm.contact.preparation.prepare import Levelled, cell_of, level
 from roughfilm.contact.preparation.recipe import Recipe, recipe_entries
 from roughfilm.contact.preparation.window import Window
@@ -176,19 +176,20 @@ def _of_measurement(
 
 
 def _with_one_edge(levelled: Levelled, recipe: Recipe, shapes: Sequence[tuple[int, int]]) -> Recipe:
-    """The recipe with the same edges for all windows: the direction of the whole surface, and the width of the largest.
+    """The recipe with the edges of all windows: the direction of the whole, and the width of the largest if blended.
 
-    With a width in proportion to the window, the margin would be the same part of windows of all sizes, and its effect
-    would not vanish on the whole surface.
+    Blending takes roughness from a margin. With a width in proportion to the window, the margin would be the same part
+    of windows of all sizes, and its effect would not vanish on the whole surface. Seams take none.
     """
     whole = cell_of(levelled, recipe, Window(start=(0, 0), shape=levelled.original.shape))
     chosen = recipe.edges.model_copy(update={"direction": whole.record["edges"]["direction"]})
-    if chosen.width is None:
+    if chosen.width is None and chosen.method == "blended":
         (place,) = window_places(levelled.original.shape, shapes[0], 1)
         own = max(cell_of(levelled, recipe.model_copy(update={"edges": chosen}), place).record["edges"]["width"])
+        least, most = width_limits(chosen.method)
         steps = levelled.original.spacing
-        most = min(largest_width(count) * step for count, step in zip(shapes[-1], steps, strict=True))
-        chosen = chosen.model_copy(update={"width": max(min(own, most), MIN_WIDTH * max(steps))})
+        largest = min(most(count) * step for count, step in zip(shapes[-1], steps, strict=True))
+        chosen = chosen.model_copy(update={"width": max(min(own, largest), least * max(steps))})
     return recipe.model_copy(update={"edges": chosen})
 
 

@@ -13,12 +13,10 @@ def preparation_steps(prepared: Prepared) -> list[str]:
     recipe = prepared.surface.source["recipe"]
     window, grid, cut, edges = record["window"], record["grid"], record["outliers"], record["edges"]
     invalid, filled = record["invalid"]["points"], record["filled"]
-    size, width = (
-        " x ".join(f"{length * 1e6:.4g}" for length in pair) for pair in (prepared.surface.size, edges["width"])
-    )
-    joined = "in both directions" if edges["direction"] == "both" else f"along {edges['direction']}"
+    size = " x ".join(f"{length * 1e6:.4g}" for length in prepared.surface.size)
     spiked = f"{cut['spikes']} points of spikes, {cut['rims']} on rims of invalid regions"
     guessed = f"{filled['points']} points, {share(filled['fraction'])}, of which {invalid} were invalid"
+    shortened = " x ".join(map(str, edges["shortened"]))
     steps = {
         f"form: {recipe['form']}": recipe["form"] != "none",
         f"spikes: {spiked}": recipe["outliers"]["limit"],
@@ -27,10 +25,23 @@ def preparation_steps(prepared: Prepared) -> list[str]:
         f"filled: {guessed}": filled["points"],
         f"window: {window['pixels'][0]} x {window['pixels'][1]} pixels from {window['start']}, {size} µm": True,
         f"grid: {grid['points'][0]} x {grid['points'][1]} points": True,
-        f"edges: joined {joined} ({edges['reason']}), filter {width} µm wide": edges["direction"] != "none",
+        f"overlap: the window is shortened by {shortened} pixels, at which edges are joined": any(edges["shortened"]),
+        **dict.fromkeys(_edges(edges), edges["changed"] != "none"),
         f"smoothing: {recipe['smoothing']} points": recipe["smoothing"] > 1,
     }
     return [line for line, changed in steps.items() if changed]
+
+
+def _edges(edges: Mapping[str, Any]) -> tuple[str, str]:
+    joined = "in both directions" if edges["changed"] == "both" else f"along {edges['changed']}"
+    width = " x ".join(f"{length * 1e6:.4g}" for length in edges["width"])
+    means = "along seams" if edges["method"] == "seams" else f"by a filter {width} µm wide"
+    other = "others beside a seam" if edges["method"] == "seams" else "a smooth copy"
+    blended, weight = (share(edges[name]) for name in ("blended_fraction", "mean_weight"))
+    return (
+        f"edges: joined {joined} ({edges['reason']}), {means}",
+        f"blended: {blended} of the points with {other}; the mean weight over the cell is {weight}",
+    )
 
 
 def scale_limits(prepared: Prepared) -> str:

@@ -57,7 +57,9 @@ def test_every_step_leaves_its_mark():
     assert record["filled"]["points"] == record["invalid"]["points"] + 2
     assert np.ptp(prepared.surface.heights) < 0.3 * np.ptp(prepared.measured.heights)
     assert prepared.surface.shape == (512, 256)
-    assert prepared.surface.size == pytest.approx(given.size)
+    pixels = np.array(record["window"]["pixels"])
+    assert np.array_equal(pixels + record["edges"]["shortened"], given.shape)
+    assert prepared.surface.size == pytest.approx(pixels * given.spacing)
     assert prepared.surface.periodic
     assert record["periodicity_mismatch"]["before"] > 0.5
     assert record["periodicity_mismatch"]["after"] < MISMATCH_THRESHOLD
@@ -84,19 +86,32 @@ def test_nesting_indices_beyond_pixels_and_sides_warn():
     assert [warning.partition(":")[0] for warning in warnings] == ["s_filter", "l_filter"]
 
 
-def test_edges_and_middle_are_those_of_their_steps():
-    prepared = prepare(measured(), read_recipe({"grid": {"points": "kept"}}))
-    middle = (slice(100, 200), slice(70, 150))
+@pytest.mark.parametrize("method", ["seams", "blended"])
+def test_edges_and_middle_are_those_of_their_steps(method):
+    prepared = prepare(measured(), read_recipe({"grid": {"points": "kept"}, "edges": {"method": method}}))
+    middle = (slice(60, 200), slice(50, 150))
     assert np.array_equal(prepared.joined.heights[middle], prepared.cell.heights[middle])
-    assert prepared.cell.shape == (300, 220)
+    assert prepared.cell.shape == prepared.joined.shape == prepared.joint.weight.shape
+    assert prepared.record["edges"]["blended_fraction"] == np.mean(prepared.joint.weight > 0)
+    assert prepared.record["edges"]["mean_weight"] == pytest.approx(prepared.joint.weight.mean())
+    assert (prepared.cell.shape == (300, 220)) == (method == "blended")
+
+
+def test_a_window_inside_of_the_measurement_keeps_its_size():
+    entries = {"window": {"size": ["240 um", "255 um"], "start": ["60 um", "60 um"]}, "grid": {"points": "kept"}}
+    prepared = prepare(measured(), read_recipe(entries))
+    assert prepared.record["window"] == {"start": [50, 35], "pixels": [200, 150]}
+    assert prepared.record["edges"]["shortened"] == [0, 0]
 
 
 @pytest.mark.parametrize(("transposed", "direction"), [(False, "x"), (True, "y")])
-def test_a_strong_lay_is_joined_along_itself_only(transposed, direction):
+def test_a_strong_lay_is_blended_along_itself_only(transposed, direction):
     given = measured(842, lay=12.0)
     if transposed:
         given = Surface(heights=given.heights.T, spacing=(1.7e-6, 1.2e-6), invalid=given.invalid.T)
-    assert prepare(given, Recipe()).record["edges"]["direction"] == direction
+    blended = prepare(given, read_recipe({"edges": {"method": "blended"}}))
+    assert blended.record["edges"]["direction"] == direction
+    assert prepare(given, Recipe()).record["edges"]["direction"] == "both"
 
 
 def test_without_a_lay_all_edges_are_joined():
@@ -148,7 +163,9 @@ def test_a_second_preparation_keeps_the_record_of_the_first():
 def test_pixels_far_from_square_get_a_width_each():
     given = measured(846)
     flat = Surface(heights=given.heights[:, :24], spacing=(1e-6, 20e-6), invalid=given.invalid[:, :24])
-    prepared = prepare(flat, read_recipe({"grid": {"points": "kept"}, "edges": {"direction": "both"}}))
+    prepared = prepare(
+        flat, read_recipe({"grid": {"points": "kept"}, "edges": {"method": "blended", "direction": "both"}})
+    )
     assert prepared.record["edges"]["width"][1] >= 10e-6
 
 
@@ -199,12 +216,26 @@ def test_real_surfaces_keep_their_roughness_and_lose_their_spikes(measured_file,
 
 
 @pytest.mark.measured
-def test_striations_that_slant_are_warned_of_and_a_shorter_window_mends_them(measured_file):
+@pytest.mark.parametrize("method", ["seams", "blended"])
+def test_striations_that_slant_are_warned_of_and_a_shorter_window_mends_them(measured_file, method):
     """What the thesis found of its surface 3: the longer the window along the lay, the worse the joint."""
     surface = read_surface(measured_file("ground_striated.x3p"))
-    whole = prepare(surface, Recipe())
-    part = prepare(surface, read_recipe({"window": {"size": ["40 um", "40 um"]}}))
-    assert whole.record["edges"]["direction"] == "y"
+    whole = prepare(surface, read_recipe({"edges": {"method": method}}))
+    part = prepare(surface, read_recipe({"edges": {"method": method}, "window": {"size": ["40 um", "40 um"]}}))
     assert any("mismatch" in warning for warning in whole.warnings)
     assert part.record["periodicity_mismatch"]["after"] < 0.2 * whole.record["periodicity_mismatch"]["after"]
-    assert not part.warnings
+    assert method == "seams" or not part.warnings
+
+
+@pytest.mark.measured
+@pytest.mark.parametrize(
+    "name", ["milled_NT1100.opd", "oblique_grooves.x3p", "periodic_grooves.plu", "isotropic.al3d", "polished.opd"]
+)
+def test_seams_of_measured_surfaces_fit_and_mix_a_few_points_only(measured_file, name):
+    surface = read_surface(measured_file(name))
+    by_seams, blended = (
+        prepare(surface, read_recipe({"edges": {"method": method}})).record for method in ("seams", "blended")
+    )
+    assert by_seams["periodicity_mismatch"]["after"] < MISMATCH_THRESHOLD
+    assert by_seams["edges"]["blended_fraction"] < 0.5 * blended["edges"]["blended_fraction"]
+    assert by_seams["edges"]["mean_weight"] < 0.2 * blended["edges"]["mean_weight"]
