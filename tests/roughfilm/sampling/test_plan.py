@@ -62,9 +62,10 @@ def test_a_window_is_prepared_as_the_recipe_prepares_it(measured):
 
 def test_the_direction_of_the_edges_is_that_of_the_whole_surface():
     lay = make(read_entries(MEASURED | {"anisotropy": 8}))
-    plan = plan_of(lay.with_heights(lay.heights, periodic=False), count=9)
+    plan = plan_of(lay.with_heights(lay.heights, periodic=False), count=9, set_=["edges.method=blended"])
     directions = {cell.source["record"]["edges"]["direction"] for group in plan.groups for cell in group.cells}
     assert directions == {"x"}
+    assert len({str(cell.source["record"]["edges"]["width"]) for group in plan.groups for cell in group.cells}) == 1
 
 
 def test_seeds_of_a_description_keep_its_spacing_and_differ(tmp_path):
