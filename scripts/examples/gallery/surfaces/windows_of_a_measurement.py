@@ -2,7 +2,8 @@
 =====================================
 
 How well does one window describe a surface? The rms height is computed in windows of three sizes. Smaller windows
-scatter more, and they lack waves that are longer than they are. The mean over the inverse of the side leads to the whole surface, whose rms height is 1 µm here.
+scatter more, and they lack waves that are longer than they are. The mean over the inverse of the side leads to the
+whole surface, whose rms height is 1 µm here.
 """
 
 import tempfile
