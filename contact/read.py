@@ -15,6 +15,7 @@ from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.foundation.writing.kinds import as_input
 from roughfilm.contact.surfaces.files import NPY_REMEDY, file_digest, read_surface
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.store import is_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
@@ -101,9 +102,14 @@ def read_height_map(
         heights=surface.heights,
         spacing=surface.spacing,
         source=surface.source,
-        warnings=periodicity_warnings(file, surface, otherwise, measured=not described and suffix != ".npy")
-        if periodic
-        else (),
+        warnings=(
+            *implausible(surface, file),
+            *(
+                periodicity_warnings(file, surface, otherwise, measured=not described and suffix != ".npy")
+                if periodic
+                else ()
+            ),
+        ),
     )
 
 
@@ -132,7 +138,10 @@ def _profile_map(file: Path, heights: Array, spacing: tuple[float, float], perio
         heights=heights,
         spacing=spacing,
         source={"file": file.name, "sha256": file_digest(file), "format": "npy"},
-        warnings=periodicity_warnings(file, surface, otherwise, measured=False) if periodic else (),
+        warnings=(
+            *implausible(surface, file),
+            *(periodicity_warnings(file, surface, otherwise, measured=False) if periodic else ()),
+        ),
     )
 
 

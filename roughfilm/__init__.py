@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from roughfilm.interface.studies import load_study as load_study
     from roughfilm.interface.studies import read_table as read_table
     from roughfilm.interface.studies import run_study as run_study
+    from roughfilm.interface.surfaces import combine as combine
     from roughfilm.interface.surfaces import flow_factors as flow_factors
     from roughfilm.interface.surfaces import parameters as parameters
     from roughfilm.interface.surfaces import prepare as prepare
@@ -60,7 +61,7 @@ else:
         "interface.scenes": ("load_scene", "read_scene", "replace"),
         "interface.solving": ("advise", "compare", "models", "solve"),
         "interface.studies": ("load_study", "read_table", "run_study"),
-        "interface.surfaces": ("flow_factors", "parameters", "prepare", "press", "read_surface"),
+        "interface.surfaces": ("combine", "flow_factors", "parameters", "prepare", "press", "read_surface"),
         "interface.sweeps": ("sweep",),
         "interface.windows": ("windows",),
         "rom.ladder.kind": ("Scene",),

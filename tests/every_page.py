@@ -1,6 +1,6 @@
 """One page of every kind, from the smallest scenes: the command that writes it and where it is."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -9,11 +9,13 @@ import pytest
 from places import SCENES
 from small_scenes import CONTACT, SEAL, SURFACE
 from typer.testing import CliRunner
+from window_sets import surface_of_seed, write_set
 
 from roughfilm.charts.families import FAMILIES
 from roughfilm.charts.family import Ask, ChartFamily, Measured, ReferenceValue
 from roughfilm.cli import compare, stability
 from roughfilm.cli.main import app
+from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.figures import base
 from roughfilm.ladder import models
 from roughfilm.stability import pocket as stability_pocket
@@ -139,8 +141,27 @@ def written(command: str, scene: Path, *options: object) -> Callable[[Path], Pat
     return make
 
 
+def over_windows(command: str, *arguments: object, cells: Sequence[Surface]) -> Callable[[Path], Path]:
+    """The page of a command over a set of windows."""
+
+    def make(folder: Path) -> Path:
+        windows = write_set(folder / f"{command} windows", cells)
+        out = folder / f"{command} over windows"
+        if command == "factors":
+            run(command, windows, *arguments, "--out", folder / "w.h5", "--report", folder / "w.html")
+            return folder / "w.html"
+        run(command, *arguments, "--windows", windows, "--jobs", 1, "--out", out)
+        return out / "report.html"
+
+    return make
+
+
+SEEDS = [surface_of_seed(seed, 24) for seed in (1, 2, 3)]
+"""Windows of the pages over sets of windows."""
+
 KINDS: dict[str, Callable[[Path], Path]] = {
     "surface": reported("surface"),
+    "combination": reported("combine", "rough.toml", "--operation", "sum"),
     "contact": reported("contact", *STEEL),
     "fit": reported("fit", "--windows", 16, "--seeds", 40),
     "factors": reported("factors", "--tolerance", 0.2, "--out", "factors.h5"),
@@ -150,6 +171,15 @@ KINDS: dict[str, Callable[[Path], Path]] = {
         SCENES / "rough_washer.toml",
         *changes(*WASHER),
         *("--resolution", 16, "--loads", "1MPa,2MPa", "--speeds", "20rpm,500rpm"),
+    ),
+    "leakage over windows": over_windows("leakage", Path("seal.toml"), "--loads", "10kPa,40kPa", cells=SEEDS),
+    "factors over windows": over_windows("factors", "--tolerance", 0.2, cells=SEEDS),
+    "stribeck over windows": over_windows(
+        "stribeck",
+        SCENES / "rough_washer.toml",
+        *changes("roughness.scale=10", "roughness.stretch=10"),
+        *("--resolution", 16, "--loads", "1MPa", "--speeds", "20rpm,500rpm"),
+        cells=SEEDS,
     ),
     "windows": written("windows", Path("rough.toml"), "--scene", "seal.toml", *FEW_WINDOWS),
     "effects": written("effects", SCENES / "pad.toml", *changes(*PAD), "--resolution", 32),

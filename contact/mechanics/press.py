@@ -247,7 +247,7 @@ class Press:
 
 
 def _checked_heights(heights: Array) -> Array:
-    array = np.array(unmasked("contact", heights), dtype=np.float64)
+    array = np.array(unmasked("contact", heights), dtype=np.float64, order="C")  # kernels write to flat views
     if array.ndim != 2 or array.size < 2:
         raise InputError(f"contact: got heights of shape {array.shape}; give (nx, ny), one of them 1 in line contact")
     if array.size > MAX_POINTS:

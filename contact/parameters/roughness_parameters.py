@@ -50,11 +50,6 @@ def parameters(surface: Surface) -> dict[str, Quantity]:
     }
 
 
-def bearing_parameters(surface: Surface) -> dict[str, Quantity]:
-    """The parameters Sk, Spk, Svk, m, and Smr1, Smr2 of the bearing curve, a subset of `parameters`."""
-    return _core("S", bearing_core(descending(surface.heights[surface.valid])))
-
-
 def profile_parameters(heights: ArrayLike) -> dict[str, Quantity]:
     """Roughness parameters of ISO 21920-2 of one profile over its whole length, neither filtered nor levelled.
 

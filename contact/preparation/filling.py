@@ -1,4 +1,4 @@
-"""Step 2 of the preparation: fill invalid points with a harmonic function of the valid ones."""
+"""Step 5 of the preparation: fill invalid points with a harmonic function of the valid ones."""
 
 import numpy as np
 import scipy

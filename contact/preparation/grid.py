@@ -1,4 +1,4 @@
-"""Step 5 of the preparation: resample the surface to another number of pixels."""
+"""Step 7 of the preparation: resample the surface to another number of pixels."""
 
 from typing import Literal
 
@@ -27,10 +27,11 @@ def resample(surface: Surface, points: tuple[int, int], method: Method = "linear
     Parameters
     ----------
     points : (nx, ny), at least 2 each.
-    method : "linear" interpolates linearly between the centres of pixels, constant beyond the outermost; where pixels
-        grow, each new height is the mean of the interpolant over the new pixel, which prevents aliasing. The error is
-        of second order for smooth surfaces. "band-limited" is trigonometric interpolation of a periodic surface with
-        pixel (0, 0) fixed, exact if every wave spans at least two new pixels.
+    method : "linear" interpolates linearly between the centres of pixels, and beyond the outermost ones towards the
+        opposite edge if the surface is periodic, else constant; where pixels grow, each new height is the mean of the
+        interpolant over the new pixel, which prevents aliasing. The error is of second order for smooth surfaces.
+        "band-limited" is trigonometric interpolation of a periodic surface with pixel (0, 0) fixed, exact if every
+        wave spans at least two new pixels.
 
     Raises
     ------
@@ -44,21 +45,26 @@ def resample(surface: Surface, points: tuple[int, int], method: Method = "linear
         raise InputError(f"grid: {surface.invalid.sum()} pixels are invalid; fill them first")
     if method == "band-limited" and not surface.periodic:
         raise InputError("grid: 'band-limited' needs a periodic surface; use 'linear'")
-    resample_axis = _linear if method == "linear" else _band_limited
     heights = surface.heights
     for axis, count in enumerate(points):
         if count != surface.shape[axis]:
-            heights = np.moveaxis(resample_axis(np.moveaxis(heights, axis, 0), count), 0, axis)
+            lines = np.moveaxis(heights, axis, 0)
+            if method == "linear":
+                around = lines if surface.periodic else lines[::-1]  # the lines before the first and behind the last
+                resampled = _linear(np.concatenate([around[-1:], lines, around[:1]]), count)
+            else:
+                resampled = _band_limited(lines, count)
+            heights = np.moveaxis(resampled, 0, axis)
     spacing = (surface.size[0] / points[0], surface.size[1] / points[1])
     return surface.with_heights(heights, spacing=spacing, invalid=np.zeros(points, dtype=bool))
 
 
-def _linear(heights: Array, count: int) -> Array:
-    old = heights.shape[0]
+def _linear(padded: Array, count: int) -> Array:
+    """``count`` lines over the lines of ``padded`` without its first and last."""
+    old = padded.shape[0] - 2
     if count > old:
-        return _interpolated(heights, (np.arange(count) + 0.5) * old / count - 0.5)
-    padded = np.concatenate([heights[:1], heights, heights[-1:]])
-    sums = np.concatenate([np.zeros_like(heights[:1]), np.cumsum((padded[1:] + padded[:-1]) / 2, axis=0)])
+        return _interpolated(padded, (np.arange(count) + 0.5) * old / count + 0.5)
+    sums = np.concatenate([np.zeros_like(padded[:1]), np.cumsum((padded[1:] + padded[:-1]) / 2, axis=0)])
     edges = np.arange(count + 1) * old / count + 0.5  # in pixels from the centre of the first padded pixel
     whole = np.minimum(edges.astype(int), old)
     fraction = (edges - whole)[:, None]
@@ -68,8 +74,7 @@ def _linear(heights: Array, count: int) -> Array:
 
 
 def _interpolated(heights: Array, places: Array) -> Array:
-    places = np.clip(places, 0, heights.shape[0] - 1)
-    whole = np.minimum(places.astype(int), heights.shape[0] - 2)
+    whole = places.astype(int)
     fraction = (places - whole)[:, None]
     return np.asarray((1 - fraction) * heights[whole] + fraction * heights[whole + 1])
 

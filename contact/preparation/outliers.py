@@ -1,4 +1,4 @@
-"""Step 3 of the preparation: clip outliers to the ends of the height histogram."""
+"""Step 3 of the preparation: clip the last outliers to the ends of the height histogram."""
 
 from dataclasses import dataclass
 

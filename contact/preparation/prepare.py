@@ -9,42 +9,38 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Mask
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
-from roughfilm.contact.parameters.spectrum import power_spectrum, texture_direction
-from roughfilm.contact.preparation.edges import MIN_WIDTH, Direction, largest_width, make_periodic
+from roughfilm.contact.preparation.edges.join import join_edges
+from roughfilm.contact.preparation.edges.joined import Joined, seam_pixels
 from roughfilm.contact.preparation.filling import fill_invalid
+from roughfilm.contact.preparation.filters import l_filter, nesting_warnings, s_filter
 from roughfilm.contact.preparation.form import remove_form
 from roughfilm.contact.preparation.grid import next_power_of_two, resample
 from roughfilm.contact.preparation.outliers import cut_outliers
-from roughfilm.contact.preparation.recipe import Edges, Grid, Recipe, Sampling, recipe_entries
+from roughfilm.contact.preparation.recipe import Grid, Recipe, Sampling, recipe_entries
 from roughfilm.contact.preparation.smoothing import smooth
+from roughfilm.contact.preparation.spikes import Spikes, find_spikes
 from roughfilm.contact.preparation.window import Window, best_window, cut_window
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
-
-EDGE_WIDTH = 1 / 2
-"""Default standard deviation of the edge filter, in units of Sal."""
-
-MIN_WIDTH_OF_SIDE, MAX_WIDTH_OF_SIDE = 1 / 80, 1 / 40
-"""Limits of the default standard deviation, in units of the shorter side."""
-
-STRONG_LAY = 0.3
-"""Texture aspect ratio Str below which a surface is anisotropic (ISO 25178-3)."""
-
-NEAR_AXIS = 30.0
-"""Angle between lay and axis, degrees, up to which the lay counts as parallel to the axis."""
 
 MAX_WINDOW_PIXELS = 1e9
 """Bound on size and start of a window, pixels, larger than any surface; it prevents overflow."""
 
 INVALID_WARNING_FRACTION = 0.15
-"""Fraction of invalid points in the window above which a warning is given."""
+"""Fraction of filled points in the window above which a warning is given."""
 
 MAX_INVALID_FRACTION = 0.9
 """Fraction of invalid points above which a measurement is refused."""
 
 CUT_WARNING_FRACTION = 0.01
-"""Fraction of clipped points above which a warning is given."""
+"""Fraction of clipped points, and of points of spikes and rims, above which a warning is given."""
+
+MAX_FITS = 5
+"""Largest number of fits of the form, each without the spikes that the fit before showed."""
+
+FORM_TOLERANCE = 0.05
+"""Change of the form, in rms heights, up to which the spikes are not sought again."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,10 +49,12 @@ class Prepared:
 
     Attributes
     ----------
-    measured : after removal of the form; invalid points are still marked.
-    filled : ``measured`` with invalid points filled.
-    cell : ``filled`` after clipping, cut to its window and resampled; edges as measured.
+    measured : after removal of the form, with invalid points, spikes and rims; with an S- or L-filter the surface after
+        clipping and these filters, without spikes and rims.
+    filled : ``measured`` after clipping, with invalid points, spikes and rims filled.
+    cell : ``filled`` cut to its window and resampled; edges as measured.
     joined : ``cell`` with joined edges.
+    joint : where opposite edges meet and which points were blended, on the pixels of the measurement or of ``cell``.
     surface : ``joined`` after smoothing: the periodic cell.
     record : data and changes of each step, as entries that JSON can hold.
     warnings : reasons why the cell may misrepresent the surface, one sentence each.
@@ -66,6 +64,7 @@ class Prepared:
     filled: Surface
     cell: Surface
     joined: Surface
+    joint: Joined
     surface: Surface
     record: Mapping[str, Any]
     warnings: tuple[str, ...]
@@ -99,17 +98,19 @@ class Levelled:
     Attributes
     ----------
     original : the surface as it was read.
-    measured : after removal of the form; invalid points are still marked.
-    filled : ``measured`` with invalid points filled.
-    clipped : ``filled`` without outliers.
+    measured : after removal of the form, with invalid points, spikes and rims; with an S- or L-filter as ``trusted``.
+    trusted : ``measured`` after clipping, with spikes and rims marked as invalid too, then the S- and the L-filter.
+    filled : ``trusted`` with invalid points filled.
     record : data and changes of each step, as entries that JSON can hold.
+    warnings : sentences on units that may be wrong, and on nesting indices that pixels or sides do not support.
     """
 
     original: Surface
     measured: Surface
+    trusted: Surface
     filled: Surface
-    clipped: Surface
     record: Mapping[str, Any]
+    warnings: tuple[str, ...]
 
 
 def level(surface: Surface, recipe: Recipe) -> Levelled:
@@ -117,10 +118,14 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
     invalid = float(surface.invalid.mean())
     if invalid > MAX_INVALID_FRACTION:
         raise InputError(f"invalid points: they are {100 * invalid:.0f} % of all; measure again")
-    measured = remove_form(surface, recipe.form)
+    measured, spikes = _without_form(surface, recipe)
     _refuse_constant(measured, surface)
-    filled, residual = fill_invalid(measured)
-    clipped, cut = cut_outliers(filled, bins=recipe.outliers.bins, points=recipe.outliers.points)
+    kept = measured.with_heights(measured.heights, invalid=measured.invalid | spikes.points)
+    trusted, cut = cut_outliers(kept, bins=recipe.outliers.bins, points=recipe.outliers.points)
+    if recipe.s_filter is not None or recipe.l_filter is not None:
+        measured = trusted = _scale_limited(trusted, recipe)
+        _refuse_constant(trusted, surface)
+    filled, residual = fill_invalid(trusted)
     record = {
         "invalid": {
             "points": int(surface.invalid.sum()),
@@ -128,9 +133,18 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
             "fraction": invalid,
             "residual": residual,
         },
-        "outliers": asdict(cut),
+        "outliers": {"spikes": int(spikes.spikes.sum()), "rims": int(spikes.rims.sum()), **asdict(cut)},
+        "filled": {"points": int(trusted.invalid.sum()), "fraction": float(trusted.invalid.mean())},
+        "scale": {"form": recipe.form, "s_filter": recipe.s_filter, "l_filter": recipe.l_filter},
     }
-    return Levelled(original=surface, measured=measured, filled=filled, clipped=clipped, record=record)
+    return Levelled(
+        original=surface,
+        measured=measured,
+        trusted=trusted,
+        filled=filled,
+        record=record,
+        warnings=(*implausible(trusted), *nesting_warnings(surface, recipe.s_filter, recipe.l_filter)),
+    )
 
 
 def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) -> Prepared:
@@ -142,37 +156,64 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
     recipe : the recipe.
     window : the window, in place of that of the recipe.
     """
-    surface, clipped = levelled.original, levelled.clipped
+    surface, filled, guessed = levelled.original, levelled.filled, levelled.trusted.invalid
     if window is None:
-        window = _window(clipped, recipe.window, surface.invalid)
-    windowed = cut_window(clipped, window)
-    in_window = float(surface.invalid[window.slices].mean())
+        window = _window(filled, recipe.window, guessed)
+    cut_window(filled, window)  # refuses a window that is not inside the surface
+    in_window = float(guessed[window.slices].mean())
     if in_window > MAX_INVALID_FRACTION:
         raise InputError(f"window: {100 * in_window:.0f} % of its points are invalid; choose another window")
-    cell = resample(windowed, _points(window.shape, recipe.grid), recipe.grid.method)
-    direction, width, reason = _edges(cell, recipe.edges)
-    joined = make_periodic(cell, direction, width=width)
-    smoothed = smooth(joined, recipe.smoothing)
+    cell, joint, window, edges = join_edges(
+        filled,
+        window,
+        recipe.edges,
+        lambda part: resample(part, _points(part.shape, recipe.grid), recipe.grid.method),
+        filled=guessed,
+    )
+    smoothed = smooth(joint.surface, recipe.smoothing)
     _refuse_constant(smoothed, surface)
-    mismatch = periodicity_mismatch(smoothed)
+    mismatch = periodicity_mismatch(smoothed, seam_pixels(joint.seams, smoothed))
     record = {
-        "invalid": {**levelled.record["invalid"], "in_window": in_window},
-        "outliers": levelled.record["outliers"],
+        **levelled.record,
+        "filled": {**levelled.record["filled"], "in_window": in_window},
         "window": {"start": list(window.start), "pixels": list(window.shape)},
         "grid": {"points": list(cell.shape), "spacing": list(cell.spacing)},
-        "edges": {"direction": direction, "width": list(width), "reason": reason},
+        "edges": edges,
         "periodicity_mismatch": {"before": periodicity_mismatch(cell), "after": mismatch},
     }
     source = {"prepared_from": dict(surface.source), "recipe": recipe_entries(recipe), "record": record}
     return Prepared(
         measured=levelled.measured,
-        filled=levelled.filled,
+        filled=filled,
         cell=cell,
-        joined=joined,
+        joined=joint.surface,
+        joint=joint,
         surface=smoothed.with_heights(smoothed.heights, source=source),
         record=record,
-        warnings=tuple(_warnings(record)),
+        warnings=(*levelled.warnings, *_warnings(record)),
     )
+
+
+def _without_form(surface: Surface, recipe: Recipe) -> tuple[Surface, Spikes]:
+    """The surface without its form, which is fitted without spikes and rims, and their masks."""
+    measured = remove_form(surface, recipe.form)
+    spikes = find_spikes(measured, limit=recipe.outliers.limit)
+    for _ in range(MAX_FITS - 1):
+        if recipe.form == "none" or not spikes.points.any():
+            break
+        before, measured = measured, remove_form(surface, recipe.form, ignored=spikes.points)
+        roughness = measured.heights[measured.valid & ~spikes.points].std()
+        if np.abs(measured.heights - before.heights).max() <= FORM_TOLERANCE * roughness:
+            break
+        spikes = find_spikes(measured, limit=recipe.outliers.limit)
+    return measured, spikes
+
+
+def _scale_limited(surface: Surface, recipe: Recipe) -> Surface:
+    """The surface after the S- and the L-filter of the recipe."""
+    if recipe.s_filter is not None:
+        surface = s_filter(surface, recipe.s_filter)
+    return surface if recipe.l_filter is None else l_filter(surface, recipe.l_filter)
 
 
 def _refuse_constant(surface: Surface, original: Surface) -> None:
@@ -209,39 +250,18 @@ def _points(shape: tuple[int, int], grid: Grid) -> tuple[int, int]:
     return nx, ny
 
 
-def _edges(surface: Surface, edges: Edges) -> tuple[Direction, tuple[float, float], str]:
-    decay = decay_lengths(autocorrelation(surface), surface.spacing)
-    width = _width(surface, decay.shortest) if edges.width is None else (edges.width, edges.width)
-    if edges.direction != "auto":
-        return edges.direction, width, "given"
-    angle = texture_direction(power_spectrum(surface))
-    from_x = min(angle, 180 - angle)
-    texture = f"Str {decay.aspect:.2f}, lay at {round(angle) % 180} degrees"
-    if decay.aspect < STRONG_LAY and from_x <= NEAR_AXIS:
-        return "x", width, f"{texture}: joined along the lay only"
-    if decay.aspect < STRONG_LAY and 90 - from_x <= NEAR_AXIS:
-        return "y", width, f"{texture}: joined along the lay only"
-    return "both", width, f"{texture}: no strong lay along an axis"
-
-
-def _width(surface: Surface, correlation_length: float) -> tuple[float, float]:
-    """The default width of the edge filter along x and y, m, limited to the range that the pixels allow."""
-    side = min(surface.size)
-    usual = min(max(EDGE_WIDTH * correlation_length, MIN_WIDTH_OF_SIDE * side), MAX_WIDTH_OF_SIDE * side)
-    x, y = (
-        max(min(usual, largest_width(count) * step), MIN_WIDTH * step)
-        for count, step in zip(surface.shape, surface.spacing, strict=True)
-    )
-    return x, y
-
-
 def _warnings(record: Mapping[str, Any]) -> list[str]:
     warnings = []
-    invalid, mismatch = record["invalid"]["in_window"], record["periodicity_mismatch"]["after"]
-    cut = record["outliers"]["above"] + record["outliers"]["below"]
-    points = record["invalid"]["measured"]
-    if invalid > INVALID_WARNING_FRACTION:
-        warnings.append(f"{100 * invalid:.0f} % of the points were invalid and are filled in; measure again if you can")
+    filled, mismatch = record["filled"]["in_window"], record["periodicity_mismatch"]["after"]
+    outliers, points = record["outliers"], record["invalid"]["measured"]
+    cut, spiked = outliers["above"] + outliers["below"], outliers["spikes"] + outliers["rims"]
+    if filled > INVALID_WARNING_FRACTION:
+        warnings.append(f"{100 * filled:.0f} % of the points were invalid and are filled in; measure again if you can")
+    if spiked > CUT_WARNING_FRACTION * points:
+        warnings.append(
+            f"{100 * spiked / points:.1f} % of the points were taken for spikes or rims of invalid regions, and are "
+            "filled in; look at the measurement, and take fewer: outliers.limit=8, or outliers.limit=0 to keep all"
+        )
     if cut > CUT_WARNING_FRACTION * points:
         warnings.append(
             f"{100 * cut / points:.1f} % of the points were cut as outliers; take fewer: outliers.bins=100, or "

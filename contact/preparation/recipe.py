@@ -3,16 +3,16 @@
 import copy
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, ValidationError
+from pydantic import Field, ValidationError, model_validator
 
 from roughfilm.contact.foundation.entries import Coordinate, Length, LengthPair, Part
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.faults import faults_of, in_lines, known_keys, unknown_key
 from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.toml import read_toml, set_entry
-from roughfilm.contact.preparation.edges import Direction
+from roughfilm.contact.preparation.edges.blending import Direction
 from roughfilm.contact.preparation.form import Form
 from roughfilm.contact.preparation.grid import Method
 
@@ -31,7 +31,12 @@ class Reading(Part):
 
 
 class Outliers(Part):
-    """Number of histogram bins, and the number of points in the outermost bins that are kept; 0 clips nothing."""
+    """Limit of spikes and rims, number of histogram bins, and number of points in the outermost bins that are kept.
+
+    The limit is in spreads of the heights; 0 finds no spikes. With 0 points nothing is clipped.
+    """
+
+    limit: Annotated[float, Field(ge=0, le=1e6)] = 4.0
 
     bins: Annotated[int, Field(strict=True, ge=1, le=1_000_000)] = 1000
     points: Annotated[int, Field(strict=True, ge=0)] = 10
@@ -52,30 +57,55 @@ class Grid(Part):
 
 
 class Edges(Part):
-    """Direction in which edges are joined, and the standard deviation of the filter (m), by default half of Sal.
+    """How edges are joined, in which direction, and the width of the joint (m), by default half of Sal.
 
-    ``"auto"`` joins along the lay of an anisotropic surface, otherwise in both directions.
+    ``"seams"`` joins along seams through an overlap, where the heights fit; ``"blended"`` blends the margin with a
+    low-pass filtered copy, as in the source. ``"auto"`` joins in both directions; blended edges are joined along a
+    strong lay only.
     """
 
+    method: Literal["seams", "blended"] = "seams"
     direction: Direction | Literal["auto"] = "auto"
     width: Length | None = None
 
 
 class Recipe(Part):
-    """Parameters of all steps, in their order."""
+    """Parameters of all steps, in their order; ``s_filter`` and ``l_filter`` are nesting indices, m.
+
+    The moving average of ``smoothing`` has 3 points by default, without an S-filter, and 1 point with one.
+    """
 
     read: Reading = Reading()
     form: Form = "quadratic"
     outliers: Outliers = Outliers()
+    s_filter: Length | None = None
+    l_filter: Length | None = None
     window: Sampling | None = None
     grid: Grid = Grid()
     edges: Edges = Edges()
     smoothing: Annotated[int, Field(strict=True, ge=1, le=101)] = 3
 
+    @model_validator(mode="before")
+    @classmethod
+    def _smooth_once(cls, entries: Any) -> Any:
+        if isinstance(entries, Mapping) and entries.get("s_filter") is not None:
+            return {"smoothing": 1, **entries}
+        return entries
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        short, long = self.s_filter, self.l_filter
+        if short is not None and long is not None and long <= short:
+            raise ValueError(
+                f"got l_filter {long * 1e6:.4g} um and s_filter {short * 1e6:.4g} um; the L-filter removes longer "
+                "waves than the S-filter: give l_filter the larger nesting index"
+            )
+        return self
+
 
 AS_IT_IS: Mapping[str, Any] = {
     "form": "none",
-    "outliers": {"points": 0},
+    "outliers": {"limit": 0.0, "points": 0},
     "grid": {"points": "kept"},
     "edges": {"direction": "none"},
     "smoothing": 1,

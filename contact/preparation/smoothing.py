@@ -1,4 +1,4 @@
-"""Step 7 of the preparation: reduce noise by a moving average."""
+"""Step 9 of the preparation: reduce noise by a moving average."""
 
 import scipy
 

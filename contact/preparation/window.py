@@ -1,4 +1,4 @@
-"""Step 4 of the preparation: cut a window, given or chosen so that its opposite edges match."""
+"""Step 6 of the preparation: cut a window, given or chosen so that its opposite edges match."""
 
 from dataclasses import dataclass
 from itertools import product

@@ -7,12 +7,19 @@ import json
 import os
 import sys
 import warnings
+from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
 
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.x3p import repaired
+
 FORMATS_WITHOUT_SIGNATURE = {"hgt", "nms"}
 """Formats that any file of the right length matches; they are accepted only with this suffix of the name."""
+
+HEIGHT_BYTES, OTHER_BYTES = 8, 1_000_000
+"""Largest number of bytes of an archive for each height, and for all else."""
 
 UNKNOWN_FORMAT = "is in no format that is known here, or damaged; export it again from the instrument"
 
@@ -23,7 +30,10 @@ def _read(path: str, channel: str | None, most: int) -> tuple[dict[str, Any], An
     from SurfaceTopography.Support.UnitConversion import get_unit_conversion_factor
 
     try:
-        reader = open_topography(path)
+        archive = repaired(Path(path), HEIGHT_BYTES * most + OTHER_BYTES)
+        reader = open_topography(path) if archive is None else open_topography(archive, format="x3p")
+    except InputError as error:
+        return {"fault": str(error)}, None
     except CannotDetectFileFormat:
         return {"fault": UNKNOWN_FORMAT}, None
     if reader.format() in FORMATS_WITHOUT_SIGNATURE and not path.lower().endswith(reader.format()):

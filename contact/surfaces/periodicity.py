@@ -17,7 +17,11 @@ LAG_DIVISOR = 16
 """Length of the surface over the longest lag; longer lags leave too few interior places for comparison."""
 
 
-def periodicity_mismatch(surface: Surface) -> float:
+Places = tuple[Array | None, Array | None]
+"""For the joints across x and across y, the first pixel behind the joint on every line across it; None for pixel 0."""
+
+
+def periodicity_mismatch(surface: Surface, seams: Places = (None, None)) -> float:
     """The excess of the structure function across the joint of opposite edges over its interior values.
 
     For a direction and a lag l, S(i) = ⟨(h_{k+l} − h_k)²⟩ over the l pairs of lines k = i − l … i − 1 that straddle
@@ -28,6 +32,8 @@ def periodicity_mismatch(surface: Surface) -> float:
     Parameters
     ----------
     surface : without invalid pixels; they would count as 0 m.
+    seams : where opposite edges meet, by default at pixel 0. Along a seam S is taken over pairs that straddle the seam,
+        and inside over those that straddle the seam moved by i pixels.
 
     Returns
     -------
@@ -38,16 +44,40 @@ def periodicity_mismatch(surface: Surface) -> float:
     Lags above one pixel detect ridges that end at a joint smoothed by blending. The measure fails where the interior is
     as rough as the joint: white noise, or square grooves of which one has another width.
     """
+    return max(mismatches(surface, seams))
+
+
+def mismatches(surface: Surface, seams: Places = (None, None)) -> tuple[float, float]:
+    """The mismatch of the joints across x and across y, of which :func:`periodicity_mismatch` is the larger one."""
     centred = surface.heights - surface.heights.mean()
     variance = float(np.mean(centred**2))
     if variance == 0:
-        return 0.0
-    excesses = [
-        _excess(lines, 2**power)
-        for lines in (centred, centred.T)
-        for power in range(max(1, lines.shape[0] // LAG_DIVISOR).bit_length())
-    ]
-    return max(0.0, *excesses) / (2 * variance)
+        return 0.0, 0.0
+    x, y = (
+        mismatch_across(lines, seam) / (2 * variance) for lines, seam in zip((centred, centred.T), seams, strict=True)
+    )
+    return x, y
+
+
+def mismatch_across(lines: Array, seam: Array | None = None) -> float:
+    """The largest excess of the structure function at one joint, the unit of the heights squared.
+
+    Parameters
+    ----------
+    lines : heights, shape (lines across the joint, places along it).
+    seam : first line behind the joint at every place; by default line 0.
+    """
+    straight = _straightened(lines, seam)
+    lags = (2**power for power in range(max(1, lines.shape[0] // LAG_DIVISOR).bit_length()))
+    return max(0.0, *(_excess(straight, lag) for lag in lags))
+
+
+def _straightened(lines: Array, seam: Array | None) -> Array:
+    """The lines, each moved along itself so that the seam becomes line 0."""
+    if seam is None:
+        return lines
+    count = lines.shape[0]
+    return np.take_along_axis(lines, (np.arange(count)[:, None] + seam) % count, axis=0)
 
 
 def _excess(lines: Array, lag: int) -> float:

@@ -56,7 +56,7 @@ class Surface:
     __repr__ = brief
 
     def __post_init__(self) -> None:
-        heights = np.array(self.heights, dtype=np.float64)
+        heights = np.array(self.heights, dtype=np.float64, order="C")
         if heights.ndim != 2 or min(heights.shape) < 2:
             raise InputError(f"surface: got heights of shape {heights.shape}; at least 2 x 2 pixels are needed")
         invalid = np.array(self.invalid, dtype=bool)

@@ -28,6 +28,7 @@ from roughfilm.rom.bearing.warnings import (
     pressure_warnings,
     rupture_warnings,
     scene_warnings,
+    window_warnings,
 )
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
@@ -105,6 +106,7 @@ def solve(
         *pressure_warnings(solution),
         *rupture_warnings(solution),
         *scene_warnings(scene, solution),
+        *window_warnings(found.scene, solution),
     ]
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)

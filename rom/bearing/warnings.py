@@ -4,11 +4,14 @@ import math
 
 import numpy as np
 
+from roughfilm.contact.foundation.rounding import share
 from roughfilm.rom.bearing.corners import jumps
 from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE
+from roughfilm.rom.bearing.roughness import RoughSurface
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.homogenization.table.factor_table import FactorTable
 
 MAX_SIDE_PRESSURE = 0.01
 """Largest pressure at a side over the largest pressure of the film that a model without sides leaves out unwarned."""
@@ -53,13 +56,24 @@ def rupture_warnings(solution: Solution) -> list[str]:
     ]
 
 
+def window_warnings(scene: Bearing, solution: Solution) -> list[str]:
+    """A warning if the flow factors are means over windows, whose scatter the uncertainty leaves out."""
+    table = solution.problem.shape.roughness
+    if not isinstance(table, FactorTable) or all(point.scatter is None for point in table.points):
+        return []
+    relative = table.scatter_above(scene.geometry.thinnest)
+    size = "whose scatter, which is unknown," if relative is None else f"whose scatter of up to {share(relative)}"
+    return [f"roughness: the flow factors are means over windows, {size} the uncertainty of the results leaves out"]
+
+
 def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:
     """Warnings about boundary conditions.
 
     They are no film, starved inlets without sliding or below ambient, pressures at sides that the model leaves out, and
     jumps of the pressure.
     """
-    warnings, ends, lowest = [], solution.problem.ends, scene.lubricant.cavitation_pressure
+    ends, lowest = solution.problem.ends, scene.lubricant.cavitation_pressure
+    warnings = [*(scene.roughness.warnings() if isinstance(scene.roughness, RoughSurface) else ())]
     if (solution.kind == CAVITY).any() and not (solution.kind == FILM).any():
         warnings.append("no film forms: the inlet flow is smaller than the flow that the narrowest place can carry")
     if scene.motion.speed == 0 and ends.theta < 1:

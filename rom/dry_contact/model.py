@@ -92,7 +92,7 @@ def solve(
         prepare(task)
     wall, cpu = time.perf_counter(), working_time()
     answer = work(task)
-    warnings = list(answer.warnings)
+    warnings = [*scene.unit_warnings(), *answer.warnings]
     if not surface.periodic:
         warnings.append("the surface is not marked as periodic; it is taken as one period")
     return Result(

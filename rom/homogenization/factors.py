@@ -64,6 +64,21 @@ class FlowFactors(GapCoefficients):
     sealed: tuple[bool, bool] = (False, False)
 
 
+@dataclass(frozen=True, kw_only=True)
+class FactorScatter:
+    """The scatter of flow factors between windows of a surface, NaN where it is unknown.
+
+    Attributes
+    ----------
+    mean : half width of the 95 % confidence interval of the mean of each factor.
+    low, high : ends of the 95 % prediction interval for one further window.
+    """
+
+    mean: FlowFactors
+    low: FlowFactors
+    high: FlowFactors
+
+
 def relative_quantities(factors: FlowFactors, uncertainty: FlowFactors) -> dict[str, Quantity]:
     """The numbers by their ``NAMES`` over those of a smooth film of the same mean gap, with uncertainties."""
     values, half_widths = (

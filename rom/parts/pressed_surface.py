@@ -42,6 +42,10 @@ class RoughScene(Scene):
     def rms_slope(self) -> float:
         """Rms slope of the surface; 0 if it is flat."""
 
+    def unit_warnings(self) -> tuple[str, ...]:
+        """The warnings that a unit of the file of the surface may be wrong."""
+        return ()
+
     @property
     def resolutions(self) -> tuple[int, ...]:
         """Numbers of points along the longer side of a convergence study, up to the surface's own."""
@@ -80,6 +84,10 @@ class RoughContact(RoughScene):
     def surface(self) -> Surface:
         """The rough surface."""
         return self.geometry.read()
+
+    def unit_warnings(self) -> tuple[str, ...]:
+        """The warnings that a unit of the file of the surface may be wrong."""
+        return self.geometry.warnings()
 
     def spectrum(self) -> WavePower | None:
         """The spectrum of the surface; None if it is flat."""

@@ -15,6 +15,7 @@ from roughfilm.contact.foundation.timing import one_time
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.mechanics.moments import WavePower, wave_power
 from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.store import is_surface
 from roughfilm.contact.surfaces.surface import Surface
 
@@ -121,6 +122,12 @@ class SurfaceGeometry(Part):
             raise InputError(f'in {path}: it gives no spacing of its points; add spacing = "1 um"')
         return _read(str(path), self.spacing, path.stat().st_mtime_ns, size)
 
+    def warnings(self) -> tuple[str, ...]:
+        """The warnings that a unit of the file may be wrong, cached; none for a described surface."""
+        if self.described:
+            return ()
+        return _unit_warnings(self.model_dump_json(include={"surface", "spacing", "digest"}, exclude_none=True))
+
     def spectrum(self) -> WavePower | None:
         """The mean square of the heights by wave; None for a flat surface."""
         return _spectrum(self.model_dump_json(exclude_none=True))
@@ -148,6 +155,12 @@ def _read(path: str, spacing: tuple[float, float] | None, _modified: int, _size:
             return read_surface(Path(path), spacing=spacing)
     except InputError as error:
         raise InputError(f"in {error}") from None
+
+
+@lru_cache(maxsize=2)
+def _unit_warnings(geometry: str) -> tuple[str, ...]:
+    scene = SurfaceGeometry.model_validate_json(geometry)
+    return implausible(scene.read(), scene.name)
 
 
 @lru_cache(maxsize=2)

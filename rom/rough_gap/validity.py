@@ -62,6 +62,7 @@ def cautions(scene: RoughGap, walls: Walls) -> tuple[str, ...]:
         warnings.append("friction does not converge where the walls touch: it grows as the grid is refined")
     rough = [scene.geometry, *([scene.geometry.upper] if scene.geometry.upper else [])]
     for wall in rough:
+        warnings += wall.warnings()
         mismatch = 0.0 if wall.described else periodicity_mismatch(wall.read())
         if mismatch > MISMATCH_THRESHOLD:
             warnings.append(f"{wall.name} is not periodic (edge mismatch {mismatch:.2g}), which may reduce the flow")

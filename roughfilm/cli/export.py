@@ -12,6 +12,7 @@ from roughfilm.contact.meshes.files import KINDS, mesh_format, write_mesh
 from roughfilm.contact.meshes.mesh import CellType, Mesh
 from roughfilm.contact.meshes.surface import surface_mesh
 from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.store import is_surface
 from roughfilm.contact.synthetic.description import make, read_description
 from roughfilm.rom.ladder.provenance import circumstances
@@ -110,6 +111,8 @@ def _mesh(
     if spacing is None and file.suffix.lower() == ".npy" and file.is_file() and not is_surface(file):
         raise InputError(f"{file}: does not hold the distance of its points; give it by --spacing 1um")
     surface = read_surface(file, spacing=None if spacing is None else (spacing, spacing))
+    for sentence in implausible(surface, file):
+        print_message("warning", sentence)
     return surface_mesh(surface), {"surface": dict(surface.source), "left_out": []}
 
 

@@ -9,7 +9,6 @@ import numpy as np
 import typer
 from rich.table import Table
 
-from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.writing.kinds import PAGE
@@ -25,16 +24,19 @@ from roughfilm.rom.seal.scene import Seal
 from roughfilm.rom.studies.table import TABLE, Column, table_beginning, write_csv, write_hdf5
 from roughfilm.terminal.console import (
     AsJson,
+    Jobs,
     OutDirectory,
     Overrides,
     ScenePath,
     Threads,
+    Windows,
     make_directory,
+    process_count,
     progress_bar,
 )
 from roughfilm.terminal.output_file import alone, refuse_unwritable
-from roughfilm.terminal.ranges import loads_of
 from roughfilm.terminal.results import origin, show_result, table_of, written
+from roughfilm.terminal.scenes import refuse_jobs, requested_loads, seal_of
 from roughfilm.words.leakage import WORDS, answer_in_words, in_words, leakage_scale, leaks, scatter_in_words
 from roughfilm.words.numbers import digits, finite
 
@@ -58,20 +60,21 @@ def command(
             "(default: the scene's load, and from the first touch until sealed).",
         ),
     ] = None,
+    windows: Windows = None,
     set_: Overrides = None,
     threads: Threads = None,
+    jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
     """Compute contact, gap and leakage of a seal, directly and averaged, from the first touch until it is sealed."""
-    spent, seal = stopwatch(), load_scene(scene, set_ or ())
-    if not isinstance(seal, Seal):
-        raise InputError(f"scene.kind: got {seal.kind!r}; leakage takes scenes of kind 'seal'")
-    requested = None if loads is None else loads_of(loads)
-    if requested is not None and requested[-1] > seal.hardness:
-        raise InputError(
-            f"--loads: up to {requested[-1] / 1e6:.10g} MPa, above the hardness of {seal.hardness / 1e6:.10g} MPa, "
-            "which is the largest mean pressure that the whole area can carry; lower them"
-        )
+    if windows is not None:
+        from roughfilm.cli.sets.leakage import leakage_of_set  # only a set of windows needs it
+
+        leakage_of_set(scene, windows, out, loads, set_ or (), threads, process_count(jobs), as_json=as_json)
+        return
+    refuse_jobs(jobs)
+    spent, seal = stopwatch(), seal_of(load_scene(scene, set_ or ()))
+    requested = None if loads is None else requested_loads(loads, seal)
     workers, page = checked_threads(threads), out / "report.html"
     make_directory(out)
     refuse_unwritable((page, PAGE), (out / "table.csv", table_beginning("load (Pa)")), (out / "table.h5", TABLE))

@@ -16,16 +16,37 @@ from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.writing.kinds import JSON, PAGE
 from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
 from roughfilm.rom.bearing.mixed.store import MARK, NUMBERS, UNITS, write_csv
-from roughfilm.rom.bearing.mixed.stribeck import MAX_CELLS, MIN_CELLS, RESOLUTION, StribeckCurve, StribeckPoint
+from roughfilm.rom.bearing.mixed.stribeck import (
+    MAX_CELLS,
+    MIN_CELLS,
+    RESOLUTION,
+    LiftOff,
+    StribeckCurve,
+    StribeckPoint,
+)
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
-from roughfilm.terminal.console import AsJson, OutDirectory, Overrides, ScenePath, make_directory, progress_bar
+from roughfilm.sets.cells import Cells, place_of, read_cells, scenes_of
+from roughfilm.sets.stribeck import curves_over_windows, rough_bearing
+from roughfilm.terminal.console import (
+    AsJson,
+    Jobs,
+    OutDirectory,
+    Overrides,
+    ScenePath,
+    Windows,
+    make_directory,
+    process_count,
+    progress_bar,
+)
 from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.ranges import loads_of, speeds_of
 from roughfilm.terminal.results import origin, show_result, table_of, written
+from roughfilm.terminal.scenes import bearing_of, refuse_jobs
+from roughfilm.words.average import count_in_words
 from roughfilm.words.numbers import finite
-from roughfilm.words.stribeck import at_own_speed, lift_off, speed_scale
+from roughfilm.words.stribeck import at_own_speed, lift_off, lift_off_scatter, scatter_of, speed_scale
 
 EXAMPLES = (
     "roughfilm stribeck scripts/examples/scenes/rough_washer.toml --out rough",
@@ -65,17 +86,20 @@ def command(
         Path | None,
         typer.Option(metavar="T.h5", help="Table from 'roughfilm factors C.h5' (default: one made in --out)."),
     ] = None,
+    windows: Windows = None,
     resolution: Annotated[int, typer.Option(help="Cells along and across.")] = RESOLUTION,
     set_: Overrides = None,
+    jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
     """Sweep speed and load of a bearing, smooth or with walls that may touch, to Stribeck curves."""
-    spent, bearing = stopwatch(), load_scene(scene, set_ or ())
-    if not isinstance(bearing, Bearing):
-        raise InputError(
-            f"{scene}: kind: got {bearing.kind!r}; curves over speed are those of a bearing "
-            "(scripts/examples/scenes/rough_washer.toml)"
-        )
+    spent, cells = stopwatch(), None if windows is None else read_cells(windows)
+    if cells is None:
+        refuse_jobs(jobs)
+        scenes = [bearing_of(load_scene(scene, set_ or ()))]
+    else:
+        scenes = scenes_of(scene, set_ or (), "roughness.surface", cells, rough_bearing)
+    bearing = scenes[0]
     default = SLIDING_SPEEDS if bearing.turning_radius is None else ROTATIONAL_SPEEDS
     sliding, own = speeds_of(speeds or default, bearing.turning_radius), bearing.load_pressure
     if speeds is None and bearing.motion.speed:
@@ -87,18 +111,33 @@ def command(
         raise InputError(f"--resolution: got {resolution}; it must be {MIN_CELLS} to {MAX_CELLS} cells along a side")
     if table is not None and bearing.asperities is None:
         raise InputError(f"--table: got {table}, but the scene has no [asperities]; add them or leave the table out")
+    if table is not None and cells is not None:
+        raise InputError(f"--table: got {table} beside a set of windows, each of which has its own; leave it out")
     page, stored = out / "report.html", out / "stribeck.h5"
     make_directory(out)
     refuse_unwritable((page, PAGE), (stored, marked(MARK)), (stored.with_suffix(".json"), JSON))
     with alone(stored, "sweep"), progress_bar(1.0) as advance:
-        made = partial(
-            wall_of, bearing, pressures[-1], table, out / "table.h5", _between(advance, 0.0, 0.5), resolution
-        )
-        wall = None if bearing.asperities is None else made()
-        curves, known = resumed_curves(
-            bearing, sliding, pressures, wall, stored, resolution, _between(advance, 0.5, 0.95)
-        )
-        entries = curve_entries(bearing, curves, wall, sliding)
+        if cells is None:
+            made = partial(
+                wall_of, bearing, pressures[-1], table, out / "table.h5", _between(advance, 0.0, 0.5), resolution
+            )
+            wall = None if bearing.asperities is None else made()
+            curves, known = resumed_curves(
+                bearing, sliding, pressures, wall, stored, resolution, _between(advance, 0.5, 0.95)
+            )
+        else:
+            curves, wall, known = curves_over_windows(
+                scenes,
+                [place_of(out, path) for path in cells.paths],
+                sliding,
+                pressures,
+                cells.independent,
+                stored,
+                resolution=resolution,
+                processes=process_count(jobs),
+                progress=_between(advance, 0.0, 0.95),
+            )
+        entries = curve_entries(bearing, curves, wall, sliding, cells)
         entries["numerics"] |= {"points_found": known, "resolution": resolution, **spent()}
         write_csv(stored.with_suffix(".csv"), curves)
         write_json(entries, stored.with_suffix(".json"))
@@ -109,21 +148,31 @@ def command(
 
     def shown() -> Iterator[Table | str]:
         scale = speed_scale(bearing)
-        heads = ("load, MPa", f"lift-off, {scale.unit}", "least μ", f"at, {scale.unit}", "μ at the lowest speed")
+        heads = ["load, MPa", f"lift-off, {scale.unit}", "least μ", f"at, {scale.unit}", "μ at the lowest speed"]
+        if cells is not None:
+            heads[2:] = ["±, windows", "least μ", "±, windows", *heads[3:], "±, windows"]
         parted = bearing.asperities is None
         lowest = [(curve, _least_friction(curve)) for curve in curves]
+
+        def scatter(number: str) -> list[str]:
+            return [] if cells is None else [number]
+
         yield table_of(
             heads,
             [
                 (
                     f"{curve.pressure / 1e6:.4g}",
                     "no asperities" if parted else lift_off(curve, scale, named=False),
+                    *scatter("" if parted else lift_off_scatter(curve, scale)),
                     f"{least.friction_coefficient:.3g}",
+                    *scatter(scatter_of(least, "friction_coefficient")),
                     f"{scale.factor * least.speed:.4g}",
                     f"{curve.points[0].friction_coefficient:.3g}",
+                    *scatter(scatter_of(curve.points[0], "friction_coefficient")),
                 )
                 for curve, least in lowest
             ],
+            title=None if cells is None else f"over {count_in_words(len(cells.paths), cells.independent)}",
         )
 
     least = min(map(_least_friction, curves), key=lambda point: point.friction_coefficient)
@@ -145,9 +194,13 @@ def _least_friction(curve: StribeckCurve) -> StribeckPoint:
 
 
 def curve_entries(
-    scene: Bearing, curves: Sequence[StribeckCurve], wall: Wall | None, speeds: Sequence[float]
+    scene: Bearing,
+    curves: Sequence[StribeckCurve],
+    wall: Wall | None,
+    speeds: Sequence[float],
+    cells: Cells | None = None,
 ) -> dict[str, Any]:
-    """The object of ``--json``, without the cost."""
+    """The object of ``--json``, without the cost; ``cells`` are those of a set of windows."""
     quantities: dict[str, Any] = {}
     for curve in curves:
         name, least = f"{curve.pressure / 1e6:g} MPa", _least_friction(curve)
@@ -156,8 +209,13 @@ def curve_entries(
                 "value": finite(curve.lift_off.speed),
                 "uncertainty": finite(curve.lift_off.uncertainty),
                 "unit": "m/s",
+                **({} if cells is None else _scatter_entries(curve.lift_off)),
             },
-            f"least friction coefficient at {name}": {"value": least.friction_coefficient, "unit": "1"},
+            f"least friction coefficient at {name}": {
+                "value": least.friction_coefficient,
+                "unit": "1",
+                **({} if cells is None else _scatter_of(least, "friction_coefficient")),
+            },
             f"speed of the least friction at {name}": {"value": least.speed, "unit": "m/s"},
         }
     points = [point for curve in curves for point in curve.points]
@@ -173,8 +231,12 @@ def curve_entries(
         "curves": [
             {
                 "pressure": curve.pressure,
-                "lift_off": {name: finite(value) for name, value in vars(curve.lift_off).items()},
-                "points": [_point_entries(point) for point in curve.points],
+                "lift_off": {
+                    "speed": finite(curve.lift_off.speed),
+                    "uncertainty": finite(curve.lift_off.uncertainty),
+                    **({} if cells is None else _scatter_entries(curve.lift_off)),
+                },
+                "points": [_point_entries(point, scattered=cells is not None) for point in curve.points],
             }
             for curve in curves
         ],
@@ -189,14 +251,30 @@ def curve_entries(
         },
         "provenance": origin(
             SOURCES,
-            [*(() if wall is None else wall.warnings), *warnings],
+            [*(() if wall is None else wall.warnings), *(() if cells is None else cells.warnings), *warnings],
             scene=scene_entries(scene),
             table={} if wall is None else dict(wall.source),
         ),
+        **({} if cells is None else {"windows": cells.entries()}),
     }
 
 
-def _point_entries(point: StribeckPoint) -> dict[str, Any]:
-    return {name: finite(getattr(point, name)) for name in NUMBERS} | {
-        "uncertainty": {name: finite(value) for name, value in point.uncertainty.items()}
-    }
+def _point_entries(point: StribeckPoint, *, scattered: bool) -> dict[str, Any]:
+    entries: dict[str, Any] = {name: finite(getattr(point, name)) for name in NUMBERS}
+    entries["uncertainty"] = {name: finite(value) for name, value in point.uncertainty.items()}
+    if scattered:
+        entries["scatter"] = {name: finite(value) for name, value in point.scatter.items()}
+        entries["window_interval"] = {name: list(ends) for name, ends in point.window_interval.items()}
+    return entries
+
+
+def _scatter_entries(lift_off: LiftOff) -> dict[str, Any]:
+    """The scatter of a lift-off speed over windows and the interval for one window; None where they are unknown."""
+    ends = lift_off.window_interval
+    return {"scatter": lift_off.scatter, "window_interval": None if ends is None else list(ends)}
+
+
+def _scatter_of(point: StribeckPoint, name: str) -> dict[str, Any]:
+    """The scatter of a number of a point over windows and the interval for one window; None where they are unknown."""
+    ends = point.window_interval.get(name)
+    return {"scatter": point.scatter.get(name), "window_interval": None if ends is None else list(ends)}

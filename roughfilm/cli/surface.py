@@ -14,7 +14,7 @@ from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.foundation.writing.kinds import PAGE
-from roughfilm.contact.parameters.roughness_parameters import bearing_parameters, parameters
+from roughfilm.contact.parameters.roughness_parameters import parameters
 from roughfilm.contact.preparation.prepare import Prepared, prepare
 from roughfilm.contact.preparation.recipe import AS_IT_IS, Reading, Recipe, load_recipe, recipe_entries
 from roughfilm.contact.surfaces.files import read_surface
@@ -25,7 +25,7 @@ from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, pr
 from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.numbers import in_unit
-from roughfilm.words.surface import preparation_steps
+from roughfilm.words.surface import preparation_steps, scale_limits
 
 EXAMPLES = ("roughfilm surface scripts/examples/surfaces/milled.toml --out cell.h5",)
 
@@ -90,6 +90,7 @@ def command(
     def shown() -> Iterator[Table | str]:
         yield _table(file.name, quantities)
         yield from preparation_steps(prepared)
+        yield f"parameters: {scale_limits(prepared)}"
 
     entries = {"quantities": values, "numerics": numerics, "provenance": provenance}
     points, rms = " x ".join(map(str, prepared.surface.heights.shape)), " ".join(in_unit(quantities["Sq"]))
@@ -109,16 +110,16 @@ def _read(file: Path, recipe: Recipe) -> Surface:
 def _quantities(prepared: Prepared) -> dict[str, Quantity]:
     """Parameters of the prepared surface, those of the measured one as ``raw_...``, and the quality of the cell.
 
-    A bearing ratio is a fraction of the whole area, and invalid points lie mostly in pits and on flanks: the bearing
-    curve of the measured surface therefore counts its invalid points at their filled heights. All other parameters
-    leave them out.
+    Those of the measured surface are of its valid points, spikes and rims included.
     """
     record = prepared.record
-    raw = {**parameters(prepared.measured), **bearing_parameters(prepared.filled)}
+    outliers = sum(record["outliers"][name] for name in ("spikes", "rims", "above", "below"))
     return {
         **parameters(prepared.surface),
-        **{f"raw_{name}": quantity for name, quantity in raw.items()},
+        **{f"raw_{name}": quantity for name, quantity in parameters(prepared.measured).items()},
         "invalid_fraction": Quantity(value=record["invalid"]["fraction"], unit="1"),
+        "outlier_fraction": Quantity(value=outliers / record["invalid"]["measured"], unit="1"),
+        "filled_fraction": Quantity(value=record["filled"]["fraction"], unit="1"),
         "periodicity_mismatch": Quantity(value=record["periodicity_mismatch"]["after"], unit="1"),
         "raw_periodicity_mismatch": Quantity(value=record["periodicity_mismatch"]["before"], unit="1"),
     }

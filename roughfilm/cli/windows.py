@@ -40,6 +40,7 @@ from roughfilm.terminal.console import (
 from roughfilm.terminal.machines import WAIT, Keys, OnMachines, Scheduler, Wait, Where, waiting_time
 from roughfilm.terminal.output_file import alone, refuse_same, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
+from roughfilm.words.numbers import share
 from roughfilm.words.windows import entries_of, headline, heads, quantity_cells
 
 EXAMPLES = (
@@ -47,6 +48,9 @@ EXAMPLES = (
     "roughfilm windows measured.x3p --scene scripts/examples/scenes/seal.toml --size 0.2mm --windows 64 --out windows",
     "roughfilm windows scripts/examples/surfaces/ground.toml --gap 2um --out seeds",
 )
+
+SEALED = ("leakage_per_width",)
+"""Quantities that are 0 where a window is sealed."""
 
 SOURCES = ("10.1080/10691898.2005.11910638", "10.1093/biomet/26.4.404", "ISO 25178-2:2021")
 
@@ -74,7 +78,8 @@ def command(
         ),
     ] = None,
     sizes: Annotated[
-        str | None, typer.Option(metavar="L,L", help="Further sides (default: a half and a quarter of the largest).")
+        str | None,
+        typer.Option(metavar="L,L", help="Further sides, or none (default: a half and a quarter of the largest)."),
     ] = None,
     tolerance: Annotated[
         str, typer.Option(metavar="T", help="Tolerance of the mean for which windows are counted.")
@@ -125,7 +130,7 @@ def command(
                 steps,
                 count=windows,
                 size=None if size is None else _length("--size", size),
-                sizes=[] if sizes is None else [_length("--sizes", one) for one in sizes.split(",")],
+                sizes=None if sizes is None else _lengths(sizes),
                 name=file.name,
                 progress=lambda done, words: advance(PREPARED * done, words),
             )
@@ -145,8 +150,8 @@ def command(
                 "numerics": {
                     "windows": sum(len(group.cells) for group in plan.groups),
                     "windows_found": rows.found,
-                    "cpu_s_of_windows": rows.cpu_s,
-                    **spent(),
+                    **(own := spent()),
+                    "cpu_s": own["cpu_s"] + rows.cpu_s,
                 },
                 "provenance": origin(SOURCES, answer.warnings, surface=dict(plan.source), scene=dict(asked.scene)),
             }
@@ -177,6 +182,10 @@ def command(
             "ones",
             left=1,
         )
+        for name, one in answer.quantities.items():
+            if name in SEALED and one.scatter.zeros > 0:
+                low, high = one.scatter.zeros_interval
+                yield f"{share(one.scatter.zeros)} of the windows are sealed, 95 %: {share(low)} to {share(high)}"
 
     show_result(
         {**entries, "report": str(page)},
@@ -235,6 +244,10 @@ def _length(option: str, text: str) -> float:
         return to_si(text.strip(), "m")
     except ValueError as error:
         raise InputError(f"{option}: {error}") from None
+
+
+def _lengths(text: str) -> list[float]:
+    return [] if text.strip() == "none" else [_length("--sizes", one) for one in text.split(",")]
 
 
 def _tolerance(text: str) -> float:

@@ -8,10 +8,12 @@ from matplotlib.ticker import LogLocator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure, surface_map, svg
+from roughfilm.figures.sets.bands import MEAN_ALPHA, WINDOW_ALPHA
 from roughfilm.figures.ticks import plain_logarithmic
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flux import flux
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, relative_row, relative_rows
+from roughfilm.words.average import MOST
 
 COLOURS = ("#2166ac", "#b2182b", "#e08214")
 GAPS = mpl.colormaps["cividis"].with_extremes(bad="#b2182b")
@@ -25,6 +27,15 @@ MAX_LINEAR = 20.0
 FLUX_RANGE = 1e-4
 """Ratio of the smallest flux with a colour of its own to the greatest."""
 
+POSITIVE_ENTRIES = np.array([True, True, False, False, False, True, True])
+"""Which entries of a row are 0 or more."""
+
+SMALL_FACTOR = 0.05
+"""Factor below which a scatter counts as unknown from ``MOST`` times this value on."""
+
+MARGIN = 0.25
+"""Room above and below the curves of means over windows, over their range."""
+
 PANELS = {
     "flow by pressure": ((0, "along x, A₁₁/ĥ³"), (1, "along y, A₂₂/ĥ³"), (2, "crossed, A₁₂/ĥ³")),
     "flow by sliding along x": ((3, "along x, B₁/ĥ"), (4, "along y, B₂/ĥ")),
@@ -33,8 +44,15 @@ PANELS = {
 """Which entries of a row each panel shows."""
 
 
+SCATTER_BANDS = {"window": WINDOW_ALPHA, "mean": MEAN_ALPHA}
+"""The bands of means over windows, with their opacity."""
+
+
 def curves(table: FactorTable) -> str:
-    """Factors over the mean gap: points with their uncertainty, the interpolation, and the asymptote."""
+    """Factors over the mean gap: points with their uncertainty, the interpolation, and the asymptote.
+
+    Means over windows have two bands: light that of one window, and darker the scatter of the mean.
+    """
     figure, panels = new_figure((11.4, 4.4), 1, len(PANELS))
     gaps = np.array([point.mean_gap for point in table.points])
     rows = np.array([relative_row(point.factors) for point in table.points])
@@ -43,11 +61,16 @@ def curves(table: FactorTable) -> str:
     )
     fine = np.geomspace(gaps[0], 1.6 * gaps[-1], DRAWN_POINTS)
     between = relative_rows(table, fine)
+    bands = [_band(table, part) for part in SCATTER_BANDS] if table.points[0].scatter is not None else []
     for axes, (title, drawn) in zip(panels, PANELS.items(), strict=True):
         for (index, label), colour in zip(drawn, COLOURS, strict=False):
             axes.plot(1e6 * fine, between[:, index], color=colour, linewidth=1.2, label=label)
             bars = np.clip(np.nan_to_num(uncertainties[:, index], posinf=0.0), 0.0, 1.0)
             axes.errorbar(1e6 * gaps, rows[:, index], bars, color=colour, fmt="o", markersize=3, elinewidth=0.8)
+            for (low, high), alpha in zip(bands, SCATTER_BANDS.values(), strict=False):
+                axes.fill_between(1e6 * gaps, low[:, index], high[:, index], color=colour, alpha=alpha, linewidth=0)
+        if bands:
+            axes.set_ylim(_limits(rows[:, [index for index, _ in drawn]]))
         if any(point.contact > 0 for point in table.points):
             axes.axvline(1e6 * table.peak, color="0.6", linewidth=0.8, linestyle="--")
         axes.set_xscale("log")
@@ -61,6 +84,27 @@ def curves(table: FactorTable) -> str:
         axes.set(xlabel="mean gap ĥ, µm", ylabel="relative to a smooth film")
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), fontsize=9)
     return svg(figure)
+
+
+def _band(table: FactorTable, part: str) -> tuple[Array, Array]:
+    """The lower and upper ends of a band at each point of a table of means over windows, shape (n, 7) each."""
+    ends = []
+    for point in table.points:
+        assert point.scatter is not None
+        row = relative_row(point.factors)
+        half = relative_row(point.scatter.mean)
+        half = np.where(half > MOST * np.maximum(np.abs(row), SMALL_FACTOR), np.nan, half)
+        mean = np.where(POSITIVE_ENTRIES, np.maximum(row - half, 0.0), row - half), row + half
+        ends.append(mean if part == "mean" else (relative_row(point.scatter.low), relative_row(point.scatter.high)))
+    low, high = (np.array(one) for one in zip(*ends, strict=True))
+    return low, high
+
+
+def _limits(rows: Array) -> tuple[float, float]:
+    """The limits of an axis that shows some curves, whatever the width of their bands."""
+    least, most = min(0.0, float(rows.min())), max(1.0, float(rows.max()))
+    room = MARGIN * (most - least)
+    return least - room, most + room
 
 
 def pressures(table: AsperityTable) -> str:

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure
+from roughfilm.figures.sets.bands import MEAN_ALPHA, WINDOW_ALPHA
 from roughfilm.figures.ticks import plain_logarithmic
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve
@@ -66,6 +67,7 @@ def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | 
             values = factor * np.array([getattr(point, name) - zero for point in curve.points])
             errors = factor * np.array([point.uncertainty.get(name, np.nan) for point in curve.points])
             axes.plot(speeds, values, color=colour, linewidth=1.4, label=f"load {curve.pressure / 1e6:.4g} MPa")
+            _draw_scatter(axes, curve, name, zero, factor, scale, colour)
             known = np.isfinite(errors)
             axes.errorbar(
                 speeds[known],
@@ -94,6 +96,26 @@ def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | 
     if touching is not None:
         gap.axhline(0, color="black", linewidth=0.8, linestyle="--")
     return figure
+
+
+def _draw_scatter(
+    axes: Axes, curve: StribeckCurve, name: str, zero: float, factor: float, scale: SpeedScale, colour: str
+) -> None:
+    """Draw the bands of a curve over windows: light the interval for one window, darker the scatter of the mean."""
+    some = [point for point in curve.points if name in point.scatter]
+    if not some:
+        return
+    speeds = [scale.factor * point.speed for point in some]
+    values, halves = (
+        np.array([float(one) for one in column])
+        for column in zip(*((getattr(point, name) - zero, point.scatter[name]) for point in some), strict=True)
+    )
+    ends = np.array([point.window_interval.get(name, (np.nan, np.nan)) for point in some]) - zero
+    for low, high, alpha in (
+        (ends[:, 0], ends[:, 1], WINDOW_ALPHA),
+        (np.maximum(values - halves, min(0.0, values.min())), values + halves, MEAN_ALPHA),
+    ):
+        axes.fill_between(speeds, factor * low, factor * high, color=colour, alpha=alpha, linewidth=0)
 
 
 def asperity_table(asperities: Asperities) -> Figure:

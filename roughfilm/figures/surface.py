@@ -11,6 +11,7 @@ from matplotlib.patches import Rectangle
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.parameters.bearing_curve import bearing_curve
 from roughfilm.contact.parameters.spectrum import power_spectrum, radial_power
+from roughfilm.contact.preparation.edges.joined import Joined
 from roughfilm.contact.preparation.prepare import Prepared
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.figures.base import new_figure, surface_map, svg
@@ -18,6 +19,9 @@ from roughfilm.figures.ticks import plain_logarithmic
 
 COLOURS = mpl.colormaps["RdBu_r"].with_extremes(bad="#444444")
 BEFORE, AFTER = "#e08214", "#2166ac"
+
+MARKED_POINTS = 256
+"""Largest number of points along a side at which the blended ones are marked."""
 
 
 def height_maps(prepared: Prepared) -> str:
@@ -41,7 +45,10 @@ def height_maps(prepared: Prepared) -> str:
 
 
 def joints(prepared: Prepared) -> str:
-    """One and a quarter cells each way, after each step that changes them; black squares where the cells meet."""
+    """One and a quarter cells each way, after each step that changes them; black squares where the cells meet.
+
+    Black lines are seams; dotted lines surround the points that were blended.
+    """
     stages = {"the cell": prepared.cell}
     for title, surface in (("edges joined", prepared.joined), ("smoothed", prepared.surface)):
         if not np.array_equal(surface.heights, [*stages.values()][-1].heights):
@@ -57,20 +64,41 @@ def joints(prepared: Prepared) -> str:
         width, height = (length * 1e6 for length in surface.size)
         for x, y in ((width, 0), (0, height), (width, 1.25 * height), (1.25 * width, height)):
             axes.plot(x, y, "ks", markersize=7, clip_on=False, zorder=5)
+        if title == "edges joined":
+            _mark_joint(axes, prepared.joint, surface.size)
         axes.set_title(title, fontsize=10)
     figure.colorbar(image, ax=panels[0].tolist(), label="height, µm")
     return svg(figure)
+
+
+def _mark_joint(axes: Axes, joint: Joined, size: tuple[float, float]) -> None:
+    every = [-(-count // MARKED_POINTS) for count in joint.weight.shape]
+    blended = (joint.weight[:: every[0], :: every[1]] > 0).astype(float)
+    tiled = np.pad(blended, [(0, count // 4) for count in blended.shape], mode="wrap")
+    x, y = (
+        (np.arange(many) + 0.5) * length / count * 1e6
+        for many, count, length in zip(tiled.shape, blended.shape, size, strict=True)
+    )
+    if tiled.min() < tiled.max():
+        axes.contour(x, y, tiled.T, levels=[0.5], colors="black", linewidths=0.7, linestyles=":")
+    for axis, seam in enumerate(joint.seams):
+        if seam is None:
+            continue
+        period, count = size[axis] * 1e6, seam.size
+        place = np.pad(seam * 1e6, (0, count // 4), mode="wrap")
+        along = (np.arange(place.size) + 0.5) * size[1 - axis] / count * 1e6
+        for copy in (place, place + period):
+            outside = (copy > 1.25 * period) | (np.abs(np.gradient(copy)) > period / 4)
+            drawn = np.where(outside, np.nan, copy)
+            axes.plot(*((drawn, along) if axis == 0 else (along, drawn)), "k-", linewidth=0.9)
 
 
 def bearing_curves(prepared: Prepared) -> str:
     """Height against the part of the surface above it, with the cut levels."""
     figure, axes = new_figure((5.4, 4.2))
     level = _level(prepared)
-    for surface, label, colour, line in (
-        (prepared.filled, "measured", BEFORE, 2.4),
-        (prepared.surface, "prepared", AFTER, 1.2),
-    ):
-        ratio, height = bearing_curve(surface.heights)
+    for surface, label, colour, line in _both(prepared):
+        ratio, height = bearing_curve(surface.heights[surface.valid])
         axes.plot(100 * ratio, (height - level) * 1e6, color=colour, label=label, linewidth=line)
     for end in ("highest", "lowest"):
         axes.axhline((prepared.record["outliers"][end] - level) * 1e6, color="black", linestyle=":", linewidth=1)

@@ -12,6 +12,7 @@ from roughfilm.contact.foundation.errors import InputError, unwritable
 from roughfilm.contact.foundation.ranges import in_range
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.writing.scratch import scratch_directory
+from roughfilm.interface.cells import CheckedWindows, Windows, checked_windows, scenes_with
 from roughfilm.interface.rows import Rows
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis, analyse_effects
 from roughfilm.rom.bearing.mixed import stribeck as mixed
@@ -20,6 +21,7 @@ from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.seal.leakage.curve import chosen_loads, columns_of, seal_setup, sealing, solved
 from roughfilm.rom.seal.leakage.percolation import Threshold
+from roughfilm.rom.seal.leakage.windows import SealOfWindows, columns_of_windows
 from roughfilm.rom.seal.scene import Seal
 
 WIDE_CELLS, CELLS = 1024, 128
@@ -33,7 +35,9 @@ def stribeck(
     speeds: Sequence[float],
     loads: Sequence[float] | None = None,
     *,
+    windows: Windows | None = None,
     resolution: int = mixed.RESOLUTION,
+    processes: int = 1,
     progress: Progress = silent,
 ) -> tuple[mixed.StribeckCurve, ...]:
     """Compute Stribeck curves, friction and film over speed at given loads, of a bearing.
@@ -47,7 +51,10 @@ def stribeck(
     scene : a bearing; its own speed and film are ignored.
     speeds : speeds u of the sliding wall, m/s, 0 or more, without asperities above 0.
     loads : mean pressures over the nominal area, Pa; by default the load of the scene.
+    windows : several windows in place of the surface of the scene, as :func:`roughfilm.windows` returns them, or a list
+        of surfaces.
     resolution : number of cells along and across the bearing, 16 to 1024.
+    processes : number of processes that solve windows.
     progress : called with the done fraction and a few words.
 
     Returns
@@ -55,7 +62,9 @@ def stribeck(
     tuple of StribeckCurve
         One curve for each load. Its ``points`` hold ``speed``, ``friction_coefficient``, ``separation``,
         ``contact_share`` (contact load over load) and ``uncertainty`` where it was estimated; ``lift_off`` is the
-        speed, m/s, above which the film alone carries the load.
+        speed, m/s, above which the film alone carries the load. With ``windows`` the values are those of a wall that
+        has all of them; points also have ``scatter``, the half width of the 95 % confidence interval from how the
+        windows differ, by quantity, and ``window_interval``, the 95 % interval for a wall that repeats one window.
 
     Raises
     ------
@@ -86,6 +95,27 @@ def stribeck(
         raise InputError("loads: are missing; give them, or a scene with a load")
     given = [own] if loads is None and own is not None else [in_range("loads", load, "Pa") for load in loads or ()]
     wanted = [in_range("speeds", speed, "m/s", zero=True) for speed in speeds]
+    if windows is not None:
+        from roughfilm.sets.stribeck import curves_over_windows, rough_bearing  # multiprocessing is slow to import
+
+        cells = checked_windows(windows)
+        with (
+            finite_arithmetic("stribeck"),
+            scenes_with(rough_bearing(scene), "roughness.surface", cells) as scenes,
+            scratch_directory() as place,
+        ):
+            curves, _, _ = curves_over_windows(
+                [rough_bearing(one) for one in scenes],
+                [Path(place) / f"{number}" for number in range(len(scenes))],
+                wanted,
+                given,
+                cells.independent,
+                Path(place) / "stribeck.h5",
+                resolution=resolution,
+                processes=processes,
+                progress=progress,
+            )
+        return curves
     with finite_arithmetic("stribeck"):
         return mixed.stribeck(scene, wanted, given, resolution=resolution, progress=progress)
 
@@ -97,19 +127,24 @@ class LeakageCurve:
     Attributes
     ----------
     rows : one dict from column to number for each load, as pandas.DataFrame accepts them; ``rows.units`` has the units.
-    sealing : by method and direction, the load, Pa, and the contact area fraction at which the seal closes.
+    sealing : by method and direction, the load, Pa, and the contact area fraction at which the seal closes; empty for
+        several windows.
+    windows : the seal over several windows, with the distribution of their sealing loads; None for one surface.
     """
 
     rows: Rows
     sealing: Mapping[str, Threshold]
+    windows: SealOfWindows | None = None
 
 
 def leakage_curve(
     scene: Scene,
     loads: Sequence[float] | None = None,
     *,
+    windows: Windows | None = None,
     directory: str | os.PathLike[str] | None = None,
     threads: int | None = None,
+    processes: int = 1,
     progress: Progress = silent,
 ) -> LeakageCurve:
     """Compute the leakage of a seal in x and y over the load, with the flow solved directly and homogenized.
@@ -121,8 +156,11 @@ def leakage_curve(
     ----------
     scene : a scene of kind "seal".
     loads : mean pressures over the nominal area, Pa; the default is a series from light contact to the sealed gap.
+    windows : several windows in place of the surface of the scene, as :func:`roughfilm.windows` returns them, or a list
+        of surfaces.
     directory : directory of the contacts and rows, from which a stopped series continues; by default nothing is kept.
     threads : number of gaps whose flow is solved at the same time; by default 2, or 1 on a machine with one core.
+    processes : number of processes that solve windows.
     progress : called with the done fraction and a few words.
 
     Returns
@@ -130,7 +168,9 @@ def leakage_curve(
     LeakageCurve
         ``rows`` with "load" (Pa), "area_fraction", "mean_gap" (m), permeabilities "direct_x", ... (m³) with
         "direct_x_uncertainty", and "leakage_direct_x", ... (kg/(m s)); ``sealing`` with the
-        loads at which the gap seals.
+        loads at which the gap seals. With ``windows`` the rows are means over them, as a seal of very many windows
+        beside each other has; "direct_x_scatter" is the half width of their 95 % confidence interval, and
+        "direct_x_window_low" and "direct_x_window_high" are the ends of the 95 % interval for one window.
 
     Raises
     ------
@@ -163,18 +203,52 @@ def leakage_curve(
             Path(place).mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise unwritable(f"directory: {place}", error, done="made") from error
+        if windows is not None:
+            return _leakage_of_windows(
+                scene, checked_windows(windows), asked, Path(place), checked_threads(threads), processes, progress
+            )
         body = seal_setup(scene, Path(place))
         found = sealing(body, lambda done, words: progress(0.2 * done, words))
         series = chosen_loads(body, found) if asked is None else asked
         pressed, _ = solved(
             body, series, checked_threads(threads), lambda done, words: progress(0.2 + 0.8 * done, words)
         )
+    return LeakageCurve(rows=_rows(columns_of(scene, list(pressed.values()))), sealing=found)
+
+
+def _leakage_of_windows(
+    scene: Seal,
+    windows: CheckedWindows,
+    loads: tuple[float, ...] | None,
+    directory: Path,
+    threads: int,
+    processes: int,
+    progress: Progress,
+) -> LeakageCurve:
+    """The leakage over several windows, whose results are kept in subdirectories."""
+    from roughfilm.sets.leakage import leakage_of_windows  # multiprocessing is slow to import
+
+    with scenes_with(scene, "geometry.surface", windows) as scenes:
+        seals = [one for one in scenes if isinstance(one, Seal)]
+        seal, _ = leakage_of_windows(
+            seals,
+            [directory / f"{number + 1:04d}" for number in range(len(seals))],
+            loads,
+            windows.independent,
+            processes=processes,
+            threads=threads,
+            progress=progress,
+        )
+    return LeakageCurve(rows=_rows(columns_of_windows(scene, seal)), sealing={}, windows=seal)
+
+
+def _rows(columns: Mapping[str, tuple[str, list[float]]]) -> Rows:
+    """The rows of columns with their units."""
     rows = Rows()
-    columns = columns_of(scene, list(pressed.values()))
     rows.units = {name: unit for name, (unit, _) in columns.items()}
     for numbers in zip(*(values for _, values in columns.values()), strict=True):
         rows.append(dict(zip(columns, numbers, strict=True)))
-    return LeakageCurve(rows=rows, sealing=found)
+    return rows
 
 
 def effects(scene: Scene, *, resolution: int | None = None, progress: Progress = silent) -> EffectAnalysis:

@@ -2,9 +2,10 @@
 
 import math
 import os
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,13 +21,13 @@ from roughfilm.contact.mechanics.solid import Solid, composite_modulus
 from roughfilm.contact.parameters import roughness_parameters
 from roughfilm.contact.preparation import prepare as preparation
 from roughfilm.contact.preparation.recipe import AS_IT_IS, load_recipe, read_recipe
+from roughfilm.contact.registration import combine as combination
 from roughfilm.contact.surfaces import files
-from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.surfaces.plausibility import implausible
+from roughfilm.contact.surfaces.surface import MAX_LENGTH, Surface
 from roughfilm.contact.synthetic.description import make, read_description
-from roughfilm.rom.homogenization.conductance import FaceRule
-from roughfilm.rom.homogenization.factors import relative_quantities
-from roughfilm.rom.homogenization.flow_factors import flow_factors as factors_of
-from roughfilm.rom.homogenization.table.separation import Separations
+from roughfilm.interface.cells import CellSet, checked_windows
+from roughfilm.rom.homogenization.table.windows import factors_at, point_quantities
 from roughfilm.rom.ladder.model import Progress, silent
 
 Heights = ArrayLike | Surface
@@ -98,6 +99,12 @@ def read_surface(
     UnavailableError
         If the file needs a library that is not installed.
 
+    Warns
+    -----
+    UserWarning
+        If a unit of the file may be wrong: pixels outside of 1 nm to 1 mm, an rms slope of 3 or more, or an rms height
+        outside of 10⁻⁵ to 10³ pixels.
+
     Examples
     --------
     >>> import roughfilm as rf
@@ -114,11 +121,14 @@ def read_surface(
             raise InputError(f"{name}: got {given[name]!r}; a described surface is complete, leave it out")
         return make(read_description(file))
     pair = None if spacing is None else _pair(spacing)
-    return files.read_surface(file, channel=channel, spacing=pair, height_unit=height_unit)
+    surface = files.read_surface(file, channel=channel, spacing=pair, height_unit=height_unit)
+    for sentence in implausible(surface, file):
+        warnings.warn(sentence, UserWarning, stacklevel=2)
+    return surface
 
 
 def prepare(surface: Surface, recipe: str | Path | Mapping[str, Any] | None = None) -> preparation.Prepared:
-    """Prepare a measured surface as a periodic cell: level, fill, cut outliers, window, resample, join edges, smooth.
+    """Prepare a measured surface as a periodic cell: level, cut outliers, fill, window, resample, join edges, smooth.
 
     Parameters
     ----------
@@ -158,6 +168,99 @@ def prepare(surface: Surface, recipe: str | Path | Mapping[str, Any] | None = No
         return preparation.prepare(surface, read_recipe(recipe))
     usual = AS_IT_IS if surface.periodic and recipe is None else None
     return preparation.prepare(surface, load_recipe(None if recipe is None else Path(recipe), usual=usual))
+
+
+def combine(
+    first: Surface,
+    second: Surface,
+    operation: combination.Operation = "difference",
+    *,
+    recipe: str | Path | Mapping[str, Any] | None = None,
+    shift: Sequence[float] | str | None = None,
+    level: combination.Level = "unworn",
+    mirror: combination.Mirror = "y",
+) -> combination.Combined:
+    """Subtract two measurements of one place, which shows wear, or add two walls that face each other.
+
+    Both are brought to the larger pixel spacing. The second is placed on the first by cross-correlation, to a fraction
+    of a pixel, or by a given shift; the common valid points are kept. A difference is first − second, before − after,
+    above a plane through the unworn points. A sum is h₁(x, y) + h₂(x, L_y − y): the second wall is turned over about
+    its x axis, so that both walls face each other; it serves as one rough wall against a plane.
+
+    Parameters
+    ----------
+    first, second : the measurements, before and after, or two walls.
+    operation : "difference" or "sum".
+    recipe : TOML file or nested entries, of which both take form, outliers and filters first; by default the tilt, and
+        nothing from two periodic surfaces.
+    shift : position (x, y) of the first pixel of the second surface on the first one, m, or "registered"; by default
+        "registered" for a difference and (0, 0) for a sum. Two walls are registered where they interlock best.
+    level : whether the plane is fitted to the "unworn" points or to "all".
+    mirror : coordinate of the second wall that is reversed: "y", "x" or "none".
+
+    Returns
+    -------
+    Combined
+        ``surface`` is the difference or the sum, ``first`` and ``second`` are both on its grid, ``quantities`` have
+        ``shift_x``, ``shift_y``, ``correlation`` and ``common_fraction``, of a difference ``worn_volume_per_area``,
+        ``largest_depth``, ``worn_fraction`` and ``noise``, of a sum ``Sq_first``, ``Sq_second`` and ``Sq_sum``.
+        ``warnings`` are sentences, such as on a correlation that unrelated surfaces have as well.
+
+    Raises
+    ------
+    InputError
+        For an argument out of range, surfaces without a common part, or constant heights.
+    ConvergenceError
+        If invalid points cannot be filled to tolerance.
+
+    Notes
+    -----
+    The registration finds no rotation and no difference in magnification.
+
+    References
+    ----------
+    D. Padfield, IEEE Trans. Image Process. 21 (2012) 2706.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughfilm as rf
+    >>> heights = 1e-6 * np.random.default_rng(1).normal(size=(80, 70))
+    >>> before = rf.Surface(heights=heights[:64, :64], spacing=(1e-6, 1e-6))
+    >>> after = rf.Surface(heights=heights[9:73, 4:68], spacing=(1e-6, 1e-6))
+    >>> moved = rf.combine(before, after).quantities
+    >>> round(1e6 * moved["shift_x"].value, 6), round(1e6 * moved["shift_y"].value, 6)
+    (9.0, 4.0)
+    """
+    for name, surface in (("first", first), ("second", second)):
+        if not isinstance(surface, Surface):
+            raise InputError(f"{name}: got {type(surface).__name__}; give a Surface, such as read_surface() returns")
+    if operation not in get_args(combination.Operation):
+        raise InputError(f"operation: got {operation!r:.60}; it must be 'difference' or 'sum'")
+    if level not in get_args(combination.Level):
+        raise InputError(f"level: got {level!r:.60}; it must be 'unworn' or 'all'")
+    if isinstance(recipe, Mapping):
+        steps = read_recipe(recipe)
+    else:
+        usual = combination.usual_entries(first, second)
+        steps = load_recipe(None if recipe is None else Path(recipe), usual=usual)
+    place = _place("registered" if shift is None and operation == "difference" else shift)
+    with finite_arithmetic("combine"):
+        if operation == "sum":
+            return combination.composite(first, second, steps, shift=place, mirror=mirror)
+        return combination.difference(first, second, steps, shift=place, level=level)
+
+
+def _place(shift: Sequence[float] | str | None) -> combination.Shift:
+    if isinstance(shift, str) and shift == "registered":
+        return "registered"
+    try:
+        x, y = (0.0, 0.0) if shift is None else map(float, shift)
+    except (TypeError, ValueError):
+        raise InputError(f"shift: got {shift!r:.60}; give a pair (x, y) in m, or 'registered'") from None
+    if not all(math.isfinite(length) and abs(length) < MAX_LENGTH for length in (x, y)):
+        raise InputError(f"shift: got {shift!r:.60}; give a pair (x, y) in m below {MAX_LENGTH:g}")
+    return x, y
 
 
 def parameters(heights: Heights, *, spacing: float | Sequence[float] | None = None) -> dict[str, Quantity]:
@@ -278,7 +381,7 @@ def press(
 
 
 def flow_factors(
-    heights: Heights,
+    heights: Heights | CellSet | Sequence[Surface],
     *,
     spacing: float | Sequence[float] | None = None,
     gap: float,
@@ -293,7 +396,8 @@ def flow_factors(
 
     Parameters
     ----------
-    heights : z, shape (nx, ny), m, upward, towards the smooth wall, one period; or a Surface.
+    heights : z, shape (nx, ny), m, upward, towards the smooth wall, one period; or a Surface; or several windows, as
+        :func:`roughfilm.windows` returns them, or a list of Surfaces.
     spacing : distance of neighbouring points, m, or a pair (dx, dy); not for a Surface.
     gap : mean gap ĥ, m, before the offset.
     offset : length added to the gap everywhere, m; 0 closes the film where the walls touch.
@@ -304,7 +408,8 @@ def flow_factors(
     dict of Quantity
         A11, A12, A21, A22, B1, B2, d, e with their uncertainties (None if unknown), ``mean_gap`` and ``separation``
         (the distance of the mean planes), both in m, and ``contact``, the area fraction in contact. A direction whose A
-        is 0 is sealed.
+        is 0 is sealed. Over several windows of this mean gap they are means; A11 to e then have ``scatter``, the half
+        width of their 95 % confidence interval from how the windows differ, and ``window_interval``, that for one.
 
     Raises
     ------
@@ -333,17 +438,32 @@ def flow_factors(
     >>> round(factors["A11"].value, 3), round(factors["A22"].value, 3)
     (0.706, 1.167)
     """
-    surface = surface_of(heights, spacing)
-    walls = Separations(heights=surface.heights)
-    separation = walls.at_mean_gap(in_range("gap", gap, "m"))
-    added = in_range("offset", offset, "m", zero=True)
+    mean_gap, added = in_range("gap", gap, "m"), in_range("offset", offset, "m", zero=True)
+    if _are_windows(heights):
+        if spacing is not None:
+            raise InputError(f"spacing: got {spacing!r}; the windows have their own, leave it out")
+        windows = checked_windows(heights)
+        surfaces, independent = windows.cells, windows.independent
+    else:
+        surfaces, independent = (surface_of(cast("Heights", heights), spacing),), None
     with finite_arithmetic("flow_factors"):
-        found = factors_of(
-            walls.gap(separation), surface.spacing, rule=FaceRule.LINEAR, offset=added, progress=progress
+        point = factors_at(
+            [surface.heights for surface in surfaces],
+            surfaces[0].spacing,
+            mean_gap,
+            independent=independent,
+            offset=added,
+            progress=progress,
         )
     return {
-        **relative_quantities(found.factors, found.uncertainty),
-        "mean_gap": Quantity(value=found.factors.mean_gap, unit="m"),
-        "separation": Quantity(value=separation, unit="m"),
-        "contact": Quantity(value=found.contact, unit="1"),
+        **point_quantities(point),
+        "mean_gap": Quantity(value=point.mean_gap, unit="m"),
+        "separation": Quantity(value=point.separation, unit="m"),
+        "contact": Quantity(value=point.contact, unit="1"),
     }
+
+
+def _are_windows(heights: object) -> bool:
+    """Whether an argument is a set of windows, or a list whose first entry is a surface."""
+    listed = isinstance(heights, list | tuple) and len(heights) > 0 and isinstance(heights[0], Surface)
+    return listed or (hasattr(heights, "cells") and hasattr(heights, "independent"))

@@ -26,7 +26,7 @@ def windows(
     *,
     count: int = COUNT,
     size: float | None = None,
-    sizes: Sequence[float] = (),
+    sizes: Sequence[float] | None = None,
     recipe: str | Path | Mapping[str, Any] | None = None,
     gap: float | None = None,
     sealing: bool = False,
@@ -48,7 +48,7 @@ def windows(
     count : number of windows, or seeds, of each size.
     size : side of the largest windows, m; by default five decay lengths Sal or, if it is more, the side of the largest
         squares of which ``count`` fit, up to half of the measurement; for a description its size.
-    sizes : further sides, m; by default a half and a quarter of ``size``.
+    sizes : further sides, m, none if empty; by default a half and a quarter of ``size``.
     recipe : TOML file or nested entries of the preparation, as for :func:`roughfilm.prepare`; windows keep the pixels
         of the measurement by default.
     gap : mean gap, m, at which flow factors are added without a scene.

@@ -12,6 +12,8 @@ from roughfilm.pages.render import render
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.flow_factors import Estimated
 from roughfilm.rom.homogenization.table.factor_table import FactorTable
+from roughfilm.rom.homogenization.table.windows import POSITIVE
+from roughfilm.words.average import rounded
 from roughfilm.words.numbers import with_error
 
 BY_PRESSURE = {"A11": "along x", "A22": "along y", "A12": "crossed"}
@@ -62,6 +64,7 @@ def write_page(
         path,
         name=name,
         entries=entries,
+        windows=entries.get("windows", {}).get("count", 0),
         asked=f"{1e6 * asked['mean_gap']:.4g}",
         cards={words: _factor(asked, factor) for factor, words in CARDS.items()},
         touching=asked["contact"],
@@ -88,13 +91,17 @@ def _row(point: Mapping[str, Any], names: Iterable[str], *, pressed: bool) -> li
         *loaded,
         f"{1e6 * point['mean_gap']:.4g}",
         f"{100 * point['contact']:.3g}",
-        *(_factor(point, name) for name in names),
+        *(_factor(point, name, "\n± ") for name in names),
     ]
 
 
-def _factor(point: Mapping[str, Any], name: str) -> str:
-    """A factor with its uncertainty, or "sealed"."""
+def _factor(point: Mapping[str, Any], name: str, joint: str = " ± ") -> str:
+    """A factor with its uncertainty, and behind ``joint`` the scatter of a mean over windows; or "sealed"."""
     if (name == "A11" and point["sealed_x"]) or (name == "A22" and point["sealed_y"]):
         return "sealed"
     value, uncertainty = point[name]["value"], point[name]["uncertainty"]
-    return with_error(value, math.inf if uncertainty is None else uncertainty).replace("-", "−")
+    text = with_error(value, math.inf if uncertainty is None else uncertainty).replace("-", "−")
+    if "scatter" not in point[name]:
+        return text
+    size = value if name in POSITIVE else math.inf  # the others may be near 0
+    return f"{text}{joint}{rounded(point[name]['scatter'], size)}"

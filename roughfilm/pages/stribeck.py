@@ -17,6 +17,7 @@ from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.stribeck import LOAD_TOLERANCE, StribeckCurve, StribeckPoint, curve_film
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.words.average import count_in_words
 from roughfilm.words.stribeck import SpeedScale, lift_off, number_of, own_point, speed_scale
 
 DRAWN_CONTACT_SHARE = 0.3
@@ -58,6 +59,7 @@ def write_page(
         path,
         name=scene.name or "bearing",
         entries=entries,
+        windows=_windows(entries),
         unit=unit,
         own=f"{factor * abs(scene.motion.speed):.4g} {unit}",
         friction=scene.asperities.friction if scene.asperities is not None else 0.0,
@@ -81,6 +83,12 @@ def write_page(
         table=None if asperities is None else svg(stribeck_figures.asperity_table(asperities)),
         touching=touching,
     )
+
+
+def _windows(entries: Mapping[str, Any]) -> str:
+    """The number of windows in words; "" for one surface."""
+    windows = entries.get("windows")
+    return "" if windows is None else count_in_words(windows["count"], windows["independent"])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -140,4 +148,4 @@ def _closed(values: Array) -> Array:
 
 
 def _row(point: StribeckPoint, columns: Sequence[tuple[str, str, str, float]]) -> list[str]:
-    return [number_of(point, name, factor) for _, _, name, factor in columns]
+    return [number_of(point, name, factor, lines=True) for _, _, name, factor in columns]

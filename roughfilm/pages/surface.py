@@ -11,7 +11,7 @@ from roughfilm.figures import surface as surface_figures
 from roughfilm.figures.spatial.relief import surface_picture
 from roughfilm.pages.render import render
 from roughfilm.words.numbers import in_unit, percent
-from roughfilm.words.surface import preparation_steps
+from roughfilm.words.surface import preparation_steps, scale_limits
 
 MEANINGS = {
     "Sa": "mean distance from the mean plane",
@@ -56,11 +56,13 @@ def write_page(
         rows=rows,
         changes={name: _change(quantities, name) for name in ("Sq", "Sa")},
         steps=[line.partition(": ") for line in preparation_steps(prepared)],
+        scale=scale_limits(prepared),
         mismatch=prepared.record["periodicity_mismatch"],
         threshold=MISMATCH_THRESHOLD,
         maps=surface_figures.height_maps(prepared),
         picture=picture,
         missing=missing,
+        joining=prepared.record["edges"],
         joints=surface_figures.joints(prepared),
         edges=surface_figures.edge_profiles(prepared),
         bearing=surface_figures.bearing_curves(prepared),

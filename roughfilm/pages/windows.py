@@ -37,8 +37,9 @@ def write_page(
     heads : heads of the table of quantities.
     path : the page.
     """
-    wanted = [name for name in DRAWN[kind] if name in answer.quantities]
-    chosen = list(dict.fromkeys([answer.headline, *wanted, *answer.quantities]))[:MOST_DRAWN]
+    varied = [name for name, one in answer.quantities.items() if one.scatter.deviation > 0]
+    wanted = [name for name in DRAWN[kind] if name in varied]
+    chosen = list(dict.fromkeys([answer.headline, *wanted, *varied]))[:MOST_DRAWN]
     shown = {
         name: (title_of(name, kind), answer.quantities[name], scale_of_quantity(name, answer.quantities[name]))
         for name in chosen

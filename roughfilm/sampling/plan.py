@@ -11,7 +11,7 @@ import numpy as np
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
-from roughfilm.contact.preparation.edges import MIN_WIDTH, largest_width
+from roughfilm.contact.preparation.edges.join import width_limits
 from roughfilm.contact.preparation.prepare import Levelled, cell_of, level
 from roughfilm.contact.preparation.recipe import Recipe, recipe_entries
 from roughfilm.contact.preparation.window import Window
@@ -98,7 +98,7 @@ def planned(
     *,
     count: int,
     size: float | None,
-    sizes: Sequence[float],
+    sizes: Sequence[float] | None,
     name: str,
     progress: Progress,
 ) -> Plan:
@@ -111,7 +111,7 @@ def planned(
     count : number of windows of each size.
     size : side of the largest windows, m; by default five decay lengths Sal or, if it is more, the side of the largest
         squares of which ``count`` fit, up to half of the measurement; for a description its size.
-    sizes : further sides, m; by default a half and a quarter of ``size``.
+    sizes : further sides, m; empty for windows of one size, None for a half and a quarter of ``size``.
     name : name for people.
     progress : called with the done fraction and a few words.
 
@@ -122,7 +122,7 @@ def planned(
     """
     if not 1 <= count <= MAX_WINDOWS:
         raise InputError(f"windows: got {count}; take 1 to {MAX_WINDOWS}")
-    wrong = [one for one in (size, *sizes) if one is not None and not (0 < one < math.inf)]
+    wrong = [one for one in (size, *(sizes or ())) if one is not None and not (0 < one < math.inf)]
     if wrong:
         raise InputError(f"size: got {wrong[0]!r} m; give lengths above 0")
     if isinstance(given, Path):
@@ -135,7 +135,7 @@ def _of_measurement(
     recipe: Recipe,
     count: int,
     size: float | None,
-    sizes: Sequence[float],
+    sizes: Sequence[float] | None,
     name: str,
     progress: Progress,
 ) -> Plan:
@@ -143,8 +143,8 @@ def _of_measurement(
         raise InputError("recipe: window: is set; the windows are chosen here, leave it out and give --size")
     progress(0.0, "levelling the measurement")
     levelled = level(surface, recipe)
-    clipped = levelled.clipped
-    found = decay_lengths(autocorrelation(clipped), clipped.spacing)
+    filled = levelled.filled
+    found = decay_lengths(autocorrelation(filled), filled.spacing)
     largest = _largest(surface, count, found.shortest) if size is None else size
     shapes, warnings = _shapes(surface, largest, sizes)
     recipe = _with_one_edge(levelled, recipe, shapes)
@@ -161,34 +161,35 @@ def _of_measurement(
                 size=min(n * step for n, step in zip(shape, surface.spacing, strict=True)),
                 cells=tuple(cells),
                 windows=places,
-                independent=independent_windows(places, clipped),
-                rms_height=float(np.mean([clipped.heights[window.slices].std() for window in places])),
+                independent=independent_windows(places, filled),
+                rms_height=float(np.mean([filled.heights[window.slices].std() for window in places])),
             )
         )
     return Plan(
         name=name,
         groups=tuple(groups),
         source={"prepared_from": dict(surface.source), "recipe": recipe_entries(recipe)},
-        surface=clipped,
+        surface=filled,
         decay=(found.shortest, found.longest),
-        warnings=tuple(warnings),
+        warnings=(*levelled.warnings, *warnings),
     )
 
 
 def _with_one_edge(levelled: Levelled, recipe: Recipe, shapes: Sequence[tuple[int, int]]) -> Recipe:
-    """The recipe with the same edges for all windows: the direction of the whole surface, and the width of the largest.
+    """The recipe with the edges of all windows: the direction of the whole, and the width of the largest if blended.
 
-    With a width in proportion to the window, the margin would be the same part of windows of all sizes, and its effect
-    would not vanish on the whole surface.
+    Blending takes roughness from a margin. With a width in proportion to the window, the margin would be the same part
+    of windows of all sizes, and its effect would not vanish on the whole surface. Seams take none.
     """
     whole = cell_of(levelled, recipe, Window(start=(0, 0), shape=levelled.original.shape))
     chosen = recipe.edges.model_copy(update={"direction": whole.record["edges"]["direction"]})
-    if chosen.width is None:
+    if chosen.width is None and chosen.method == "blended":
         (place,) = window_places(levelled.original.shape, shapes[0], 1)
         own = max(cell_of(levelled, recipe.model_copy(update={"edges": chosen}), place).record["edges"]["width"])
+        least, most = width_limits(chosen.method)
         steps = levelled.original.spacing
-        most = min(largest_width(count) * step for count, step in zip(shapes[-1], steps, strict=True))
-        chosen = chosen.model_copy(update={"width": max(min(own, most), MIN_WIDTH * max(steps))})
+        largest = min(most(count) * step for count, step in zip(shapes[-1], steps, strict=True))
+        chosen = chosen.model_copy(update={"width": max(min(own, largest), least * max(steps))})
     return recipe.model_copy(update={"edges": chosen})
 
 
@@ -214,12 +215,12 @@ def _largest(surface: Surface, count: int, sal: float) -> float:
     return max(min(max(low, DECAY_LENGTHS * sal), 0.5 * min(surface.size)), min(least, *surface.size))
 
 
-def _shapes(surface: Surface, largest: float, sizes: Sequence[float]) -> tuple[list[tuple[int, int]], list[str]]:
+def _shapes(surface: Surface, largest: float, sizes: Sequence[float] | None) -> tuple[list[tuple[int, int]], list[str]]:
     """The numbers of pixels of the windows of each size, the largest first, and warnings about sizes left out."""
     side = min(surface.size)
     if largest > side * (1 + 1e-9):
         raise InputError(f"size: got {_micro(largest)}; the measurement is {_micro(side)} wide, take less")
-    wanted = [largest, *(sizes or [largest / ratio for ratio in SIZE_RATIOS])]
+    wanted = [largest, *([largest / ratio for ratio in SIZE_RATIOS] if sizes is None else sizes)]
     shapes: list[tuple[int, int]] = []
     warnings = []
     for length in sorted(set(wanted), reverse=True):
@@ -242,14 +243,19 @@ def _shapes(surface: Surface, largest: float, sizes: Sequence[float]) -> tuple[l
 
 
 def _of_description(
-    description: Description, count: int, size: float | None, sizes: Sequence[float], name: str, progress: Progress
+    description: Description,
+    count: int,
+    size: float | None,
+    sizes: Sequence[float] | None,
+    name: str,
+    progress: Progress,
 ) -> Plan:
     entries = description_entries(description)
     if "seed" not in entries:
         raise InputError(f"{name}: kind: got {entries['kind']!r}, which has no seed; all its windows are the same")
     shorter = min(description.size)
     largest = shorter if size is None else size
-    wanted = sorted({largest, *(sizes or [largest / ratio for ratio in SIZE_RATIOS])}, reverse=True)
+    wanted = sorted({largest, *([largest / ratio for ratio in SIZE_RATIOS] if sizes is None else sizes)}, reverse=True)
     points = [_points(description, length / shorter) for length in wanted]
     warnings = []
     groups, done = [], 0

@@ -27,7 +27,7 @@ class Rows:
     ----------
     by_group : rows of each group of the plan, in the order of its windows.
     found : number of rows that were stored before.
-    cpu_s : CPU time of all rows, those found as well, s.
+    cpu_s : CPU time of the rows that were not found, s.
     """
 
     by_group: tuple[tuple[Row, ...], ...]
@@ -105,7 +105,7 @@ def examined(
     return Rows(
         by_group=tuple(tuple(next(ordered) for _ in group.cells) for group in plan.groups),
         found=found,
-        cpu_s=sum(row.cpu_s for row in rows.values()),
+        cpu_s=sum(rows[number].cpu_s for number in missing),
     )
 
 

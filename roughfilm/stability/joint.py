@@ -6,8 +6,14 @@ from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.surface import Surface
 
-EDGES_ONLY = {"form": "none", "outliers": {"points": 0}, "grid": {"points": "kept"}, "smoothing": 1}
-"""Recipe that joins the edges and changes nothing else."""
+EDGES_ONLY = {
+    "form": "none",
+    "outliers": {"limit": 0.0, "points": 0},
+    "grid": {"points": "kept"},
+    "edges": {"method": "blended"},
+    "smoothing": 1,
+}
+"""Recipe that joins the edges as the source does and changes nothing else."""
 
 
 def cut_grooves(

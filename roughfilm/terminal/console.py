@@ -85,6 +85,13 @@ Scheme = Annotated[
 ]
 Processes = Annotated[int, typer.Option(help="Processes of one OpenFOAM run (MPI).", rich_help_panel=NUMERICS)]
 Jobs = Annotated[int | None, typer.Option(help="Processes (default: one for each core).", rich_help_panel=NUMERICS)]
+Windows = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="DIR",
+        help="Set of windows in place of the scene's surface: a directory from 'roughfilm windows'.",
+    ),
+]
 Threads = Annotated[
     int | None,
     typer.Option(help="Gaps whose flow is solved at once (default: 2 on several cores).", rich_help_panel=NUMERICS),

@@ -4,8 +4,11 @@ from roughfilm.rom.seal.at_load import SealAtLoad
 from roughfilm.rom.seal.leakage.percolation import Threshold
 from roughfilm.rom.seal.leakage.scatter import MEAN_SEALING_LOAD, SEALING_LOADS
 from roughfilm.rom.seal.leakage.series import Row
+from roughfilm.rom.seal.leakage.windows import SealingLoads
 from roughfilm.rom.seal.model import leakage_of
 from roughfilm.rom.seal.scene import Seal
+from roughfilm.words.average import in_words as in_words_of
+from roughfilm.words.numbers import share
 from roughfilm.words.scales import Scale, scale_for
 
 WORDS = {
@@ -53,3 +56,16 @@ def answer_in_words(scene: Seal, answer: SealAtLoad) -> str:
         return f"{where}: sealed"
     one = answer.leakage_per_width
     return f"{where}: {leakage_scale(answer).text(one.value, one.uncertainty)}"
+
+
+def sealing_in_words(sealing: SealingLoads) -> str:
+    """The loads at which windows seal in a direction, as a part of a sentence."""
+    if sealing.sealing == 0:
+        return "no window seals"
+    if sealing.load is None:
+        return f"{share(sealing.sealing)} of the windows seal"
+    if sealing.always == 1:
+        return "every window is sealed at every load"
+    always = f", {share(sealing.always)} of them at every load" if sealing.always else ""
+    megapascal = Scale(factor=1e6, unit="MPa")
+    return f"windows seal at {in_words_of(sealing.load, megapascal)}{always}"

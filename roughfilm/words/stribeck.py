@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.words.average import rounded
 from roughfilm.words.numbers import with_error
 
 
@@ -30,7 +31,10 @@ def lift_off(curve: StribeckCurve, scale: SpeedScale, *, named: bool = True) -> 
     speed, uncertainty = scale.factor * curve.lift_off.speed, scale.factor * curve.lift_off.uncertainty
     if math.isnan(speed):
         return "not reached"
-    return f"{with_error(speed, uncertainty)} {scale.unit}" if named else with_error(speed, uncertainty)
+    text = with_error(speed, uncertainty)
+    if named and curve.lift_off.scatter is not None:
+        text += f" ± {lift_off_scatter(curve, scale)} (windows)"
+    return f"{text} {scale.unit}" if named else text
 
 
 def own_point(scene: Bearing, curve: StribeckCurve) -> StribeckPoint | None:
@@ -39,10 +43,28 @@ def own_point(scene: Bearing, curve: StribeckCurve) -> StribeckPoint | None:
     return next((point for point in curve.points if math.isclose(point.speed, speed, rel_tol=1e-9)), None)
 
 
-def number_of(point: StribeckPoint, name: str, factor: float = 1.0) -> str:
-    """A number of a point times a factor, with its uncertainty, which may be unknown."""
+def number_of(point: StribeckPoint, name: str, factor: float = 1.0, *, lines: bool = False) -> str:
+    """A number of a point times a factor, with its uncertainty, which may be unknown.
+
+    The scatter of a mean over windows, which may be unknown too, stands behind it; with ``lines`` on the next line.
+    """
     text = with_error(factor * getattr(point, name), factor * point.uncertainty.get(name, math.inf))
+    if point.scatter:
+        scatter = scatter_of(point, name, factor)
+        text += f"\n± {scatter}" if lines else f" ± {scatter} (windows)"
     return text.replace("-", "−")
+
+
+def scatter_of(point: StribeckPoint, name: str, factor: float = 1.0) -> str:
+    """The scatter of a number of a point over windows times a factor; "?" if it is unknown."""
+    scatter = point.scatter.get(name)
+    return rounded(None if scatter is None else factor * scatter, factor * getattr(point, name))
+
+
+def lift_off_scatter(curve: StribeckCurve, scale: SpeedScale) -> str:
+    """The scatter of the lift-off speed over windows, without its unit; "?" if it is unknown."""
+    scatter = curve.lift_off.scatter
+    return rounded(None if scatter is None else scale.factor * scatter, scale.factor * curve.lift_off.speed)
 
 
 def at_own_speed(scene: Bearing, curves: Sequence[StribeckCurve]) -> list[str]:

@@ -121,6 +121,7 @@ def _words(text: str) -> tuple[str, ...]:
 CONTACTS = ("contact", "rough.toml", *STEEL, *_words("--loads 100kPa..10MPa:12 --out c.h5"))
 GENERATE = _words("generate foam.toml --out cases")
 BATCH = _words("batch study.toml --out sweep --jobs 2")
+WINDOWS = _words("windows rough.toml --windows 4 --sizes 80um --out windows --jobs 2")
 
 COMMANDS = {
     "solve": Command(words=_words("solve pocket.toml --model film --out film.h5 --json")),
@@ -146,6 +147,19 @@ COMMANDS = {
     "fit": Command(words=_words("fit rough.toml --windows 16 --seeds 40 --out fitted.toml --report page.html --json")),
     "windows": Command(
         words=_words("windows rough.toml --scene seal.toml --windows 6 --sizes 80um --out windows --jobs 2 --json")
+    ),
+    "combine": Command(words=_words("combine rough.toml rough.toml --out wear.h5 --report page.html --json")),
+    "leakage, windows": Command(
+        words=_words("leakage seal.toml --windows windows --out seal --jobs 2 --loads 10kPa,40kPa --json"),
+        before=(WINDOWS,),
+    ),
+    "factors, windows": Command(words=_words("factors windows --out table.h5 --json"), before=(WINDOWS,)),
+    "stribeck, windows": Command(
+        words=_words(
+            "stribeck pad.toml --windows windows --out curves --jobs 2 --resolution 16 --loads 1MPa --speeds 1m/s,5m/s "
+            "--json"
+        ),
+        before=(WINDOWS,),
     ),
     "export": Command(words=_words("export gap.toml --out gap.vtu --resolution 16 --json")),
     "export, surface": Command(words=_words("export rough.toml --out rough.stl --json")),

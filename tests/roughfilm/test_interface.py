@@ -155,6 +155,19 @@ BAD = {
     ),
     "an array to read": (lambda scene, z: rf.read_surface(z), "path: got ndarray"),
     "an array to prepare": (lambda scene, z: rf.prepare(z), "surface: got ndarray"),
+    "an array to combine": (lambda scene, z: rf.combine(z, z), "first: got ndarray"),
+    "a shift of one length": (
+        lambda scene, z: rf.combine(*[rf.Surface(heights=z, spacing=(1e-6, 1e-6))] * 2, "sum", shift=1e-6),
+        "shift: got 1e-06; give a pair",
+    ),
+    "a shift beyond the surface": (
+        lambda scene, z: rf.combine(*[rf.Surface(heights=z, spacing=(1e-6, 1e-6))] * 2, shift=(1.0, 0.0)),
+        "registration: the surfaces overlap by 0 pixels along x",
+    ),
+    "an unknown operation": (
+        lambda scene, z: rf.combine(*[rf.Surface(heights=z, spacing=(1e-6, 1e-6))] * 2, "product"),
+        "operation: got 'product'",
+    ),
     "a model without cases": (lambda scene, z: rf.write_case(scene, "case", model="film"), "navier_stokes"),
     "a pocket for a bearing": (lambda scene, z: rf.stribeck(scene, [1.0], [1e6]), "kind 'pocket'"),
     "a pocket for a seal": (lambda scene, z: rf.leakage_curve(scene, [1e6]), "kind 'pocket'"),

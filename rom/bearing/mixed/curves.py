@@ -12,6 +12,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.kept import kept_asperities
@@ -59,7 +60,7 @@ class Wall:
     source : input of the table as JSON entries.
     """
 
-    asperities: AsperityTable
+    asperities: Asperities
     warnings: tuple[str, ...]
     points: int
     known_points: int
@@ -231,6 +232,16 @@ def _digest(asperities: AsperityTable) -> str:
     return Inputs(heights=rows, spacing=(1.0, 1.0), settings={}).digest
 
 
+def curve_inputs(scene: Bearing, wall: Wall | None, resolution: int, **more: Any) -> Inputs:
+    """The inputs of the file of curves: all entries on which they depend, and more as entries for JSON."""
+    entries = {name: entry for name, entry in scene_entries(scene).items() if name != "load"}
+    source = {} if wall is None else wall.source
+    settings = {**_flat(entries), **source, **more, "resolution": resolution, "code": code()}
+    for name in IRRELEVANT:
+        settings.pop(name, None)
+    return Inputs(heights=np.zeros((0, 0)), spacing=(1.0, 1.0), settings=settings)
+
+
 def resumed_curves(
     scene: Bearing,
     speeds: Sequence[float],
@@ -256,11 +267,7 @@ def resumed_curves(
     ConvergenceError
         If a film does not converge.
     """
-    entries = {name: entry for name, entry in scene_entries(scene).items() if name != "load"}
-    settings = {**_flat(entries), **({} if wall is None else wall.source), "resolution": resolution, "code": code()}
-    for name in IRRELEVANT:
-        settings.pop(name, None)
-    inputs = Inputs(heights=np.zeros((0, 0)), spacing=(1.0, 1.0), settings=settings)
+    inputs = curve_inputs(scene, wall, resolution)
     known = known_points(out, inputs)
     points = {(point.pressure, point.speed): point for point in known}
 

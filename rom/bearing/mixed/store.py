@@ -35,7 +35,10 @@ UNITS = {
 }
 """Units of the numbers of a point; all others are dimensionless."""
 
-NUMBERS = tuple(entry.name for entry in fields(StribeckPoint) if entry.name != "uncertainty")
+NUMBERS = tuple(entry.name for entry in fields(StribeckPoint) if entry.type is float)
+SCATTER = ("scatter", "window_low", "window_high")
+"""Groups of the numbers of points over several windows."""
+
 ROWS = ("rows",)
 
 
@@ -45,7 +48,8 @@ def save_points(
     """Write points in one step, in order of load and speed.
 
     ``points/`` has a column for each number, ``uncertainty/`` a column for each estimated uncertainty, NaN where there
-    is none, and ``lift_off/`` a row for each load.
+    is none, and ``lift_off/`` a row for each load. Points of several windows have ``scatter/``, ``window_low/`` and
+    ``window_high/`` too.
 
     Raises
     ------
@@ -63,6 +67,14 @@ def save_points(
         for name in sorted({name for point in ordered for name in point.uncertainty}):
             column = [point.uncertainty.get(name, np.nan) for point in ordered]
             _write(file, f"uncertainty/{name}", column, UNITS.get(name, "1"))
+        for group in SCATTER:
+            for name in _scattered(ordered):
+                _write(
+                    file,
+                    f"{group}/{name}",
+                    [_of_windows(point, group, name) for point in ordered],
+                    UNITS.get(name, "1"),
+                )
         if curves:
             _write(file, "lift_off/pressure", [curve.pressure for curve in curves], "Pa")
             _write(file, "lift_off/speed", [curve.lift_off.speed for curve in curves], "m/s")
@@ -105,13 +117,29 @@ def write_csv(path: Path, curves: Sequence[StribeckCurve]) -> None:
     uncertain = sorted({name for curve in curves for point in curve.points for name in point.uncertainty})
     heads = [f"{name} ({UNITS.get(name, '1')})" for name in NUMBERS]
     heads += [f"{name} ± ({UNITS.get(name, '1')})" for name in uncertain]
+    scattered = _scattered([point for curve in curves for point in curve.points])
+    heads += [f"{name}_{group} ({UNITS.get(name, '1')})" for name in scattered for group in SCATTER]
     lines = [", ".join(heads)]
     for point in (point for curve in curves for point in curve.points):
         numbers = [repr(float(getattr(point, name))) for name in NUMBERS]
         numbers += [repr(float(point.uncertainty[name])) if name in point.uncertainty else "" for name in uncertain]
+        own = [_of_windows(point, group, name) for name in scattered for group in SCATTER]
+        numbers += ["" if np.isnan(number) else repr(number) for number in own]
         lines.append(", ".join(numbers))
     with replacing(path, table_beginning(heads[0])) as scratch:
         scratch.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def _scattered(points: Sequence[StribeckPoint]) -> list[str]:
+    """The names of the quantities that have a scatter at some points."""
+    return sorted({name for point in points for name in point.scatter})
+
+
+def _of_windows(point: StribeckPoint, group: str, name: str) -> float:
+    """The scatter of a quantity of a point, or an end of its interval for one window; NaN if it is unknown."""
+    if group == "scatter":
+        return float(point.scatter.get(name, np.nan))
+    return float(point.window_interval.get(name, (np.nan, np.nan))[group == "window_high"])
 
 
 def _write(file: h5py.File, name: str, values: Sequence[float], unit: str) -> None:

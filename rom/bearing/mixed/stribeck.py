@@ -94,6 +94,9 @@ class StribeckPoint:
     residual : residual of the film: the largest net flow into a node over the largest flow through a face.
     cpu_s : CPU time, s.
     uncertainty : uncertainty of quantities by name, in their units; empty where it was not estimated.
+    scatter : for a wall that is known in several windows, the half width of the 95 % confidence interval of a quantity
+        by its name, from how the windows differ; it lacks quantities whose scatter is unknown, for one surface all.
+    window_interval : 95 % prediction interval of a quantity for a bearing whose wall repeats one further window.
     """
 
     pressure: float
@@ -114,6 +117,8 @@ class StribeckPoint:
     residual: float
     cpu_s: float
     uncertainty: Mapping[str, float] = field(default_factory=dict)
+    scatter: Mapping[str, float] = field(default_factory=dict)
+    window_interval: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,11 +126,14 @@ class LiftOff:
     """The lift-off speed with its uncertainty, m/s, above which the film alone carries the load.
 
     It is 0 if the film carries the load at rest. It is NaN if the wall does not lift off at 1000 times the largest
-    requested speed, or at 10⁵ times the speed at which 6ηuL/α² equals the load, whichever is larger.
+    requested speed, or at 10⁵ times the speed at which 6ηuL/α² equals the load, whichever is larger. ``scatter`` and
+    ``window_interval`` are those of the mean over several windows; None for one surface, and where they are unknown.
     """
 
     speed: float
     uncertainty: float
+    scatter: float | None = None
+    window_interval: tuple[float, float] | None = None
 
 
 NEVER_TOUCHING = LiftOff(speed=0.0, uncertainty=0.0)

@@ -12,7 +12,7 @@ import scipy
 from roughfilm.contact.foundation.arrays import Array, finite_arithmetic
 from roughfilm.contact.foundation.compiled import compiled
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.homogenization.factors import FlowFactors
+from roughfilm.rom.homogenization.factors import FactorScatter, FlowFactors
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 
 PLACE = "flow factors"
@@ -57,6 +57,7 @@ class Point:
     separation_missed : that of the separation at the load, over the rms height.
     slopes : derivatives of :func:`relative_row` with respect to ln ĥ, shape (7,); NaN where they are unknown, as under
         load, and for d and e where the gap is closed anywhere.
+    scatter : scatter of the factors, if they are means over windows, else None.
     """
 
     separation: float
@@ -75,6 +76,7 @@ class Point:
     friction_missed: float = 0.0
     separation_missed: float = 0.0
     slopes: Array = field(default_factory=UNKNOWN_SLOPES.copy)
+    scatter: FactorScatter | None = None
 
     @property
     def mean_gap(self) -> float:
@@ -141,6 +143,23 @@ class FactorTable:
             pairs = ((a[0, 0], da[0, 0]), (a[1, 1], da[1, 1]), (b[0], db[0]))
             worst = max([worst, *(float(uncertainty / abs(value)) for value, uncertainty in pairs if value != 0)])
         return max(point.missed for point in near) + worst
+
+    def scatter_above(self, mean_gap: float) -> float | None:
+        """The relative scatter of the mean A₁₁, A₂₂ and B₁ over windows at mean gaps above this one, m.
+
+        It is 0 for a table of one surface, and None if it is unknown at a point.
+        """
+        worst = 0.0
+        for point in self.points:
+            if point.scatter is None or self.scale * point.mean_gap < mean_gap:
+                continue
+            (a, b), (da, db) = ((one.pressure, one.shear) for one in (point.factors, point.scatter.mean))
+            pairs = ((a[0, 0], da[0, 0]), (a[1, 1], da[1, 1]), (b[0], db[0]))
+            relative = [float(half / abs(value)) for value, half in pairs if value != 0]
+            if not np.isfinite(relative).all():
+                return None
+            worst = max([worst, *relative])
+        return worst
 
     def friction_uncertainty(self, mean_gap: float) -> float:
         """The relative uncertainty of d + 3e at a mean gap, m, interpolation plus discretisation; at most 1."""

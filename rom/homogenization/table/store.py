@@ -14,7 +14,7 @@ from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, op
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.reading.hdf5_content import Content, Json, Numbers
-from roughfilm.rom.homogenization.factors import FlowFactors
+from roughfilm.rom.homogenization.factors import FactorScatter, FlowFactors
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 
 SCHEMA = 4
@@ -38,12 +38,20 @@ NUMBERS = {
     "separation_missed": "1",
 }
 
+SCATTER = {"scatter": "mean", "window_low": "low", "window_high": "high"}
+"""Groups of the scatter of a table over windows, with the attributes of :class:`FactorScatter`."""
+
 ROWS = ("rows",)
 SHAPES = {"pressure": ("rows", 2, 2), "shear": ("rows", 2)}
 LAYOUT = {
     **{f"points/{name}": Numbers(shape=ROWS) for name in NUMBERS},
     **{f"points/{name}": Numbers(shape=SHAPES.get(name, ROWS)) for name in FACTORS},
     **{f"uncertainty/{name}": Numbers(shape=SHAPES.get(name, ROWS), missing=True, infinite=True) for name in FACTORS},
+    **{
+        f"{group}/{name}": Numbers(shape=SHAPES.get(name, ROWS), missing=True, infinite=True, optional=True)
+        for group in SCATTER
+        for name in FACTORS
+    },
     "points/iterations": Numbers(shape=ROWS, kind=int),
     "points/slopes": Numbers(shape=("rows", 7), missing=True),
     "points/sealed": Numbers(shape=("rows", 2), kind=bool),
@@ -81,6 +89,9 @@ class Making:
 def save_table(path: Path, inputs: Inputs, table: FactorTable, making: Making | None = None) -> None:
     """Write a table: ``points/`` has one column per number, narrowest gap first; ``uncertainty/`` has their errors.
 
+    A table of means over windows has their ``scatter/`` too, and the ends of the interval for one window in
+    ``window_low/`` and ``window_high/``.
+
     Parameters
     ----------
     path : the file.
@@ -110,6 +121,12 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable, making: Making | 
             for name, unit in FACTORS.items():
                 values = np.array([getattr(getattr(point, group), name) for point in points])
                 _write(file, f"{'points' if group == 'factors' else group}/{name}", values, unit)
+        scatters = [point.scatter for point in points if point.scatter is not None]
+        if len(scatters) == len(points):
+            for group, part in SCATTER.items():
+                for name, unit in FACTORS.items():
+                    values = np.array([getattr(getattr(one, part), name) for one in scatters])
+                    _write(file, f"{group}/{name}", values, unit)
         _write(file, "points/slopes", np.array([point.slopes for point in points]), "1")
         _write(file, "points/sealed", np.array([point.factors.sealed for point in points]), "1")
 
@@ -183,11 +200,16 @@ def _table(content: Content) -> FactorTable:
         group: {name: stored[f"{group}/{name}"] for name in (*FACTORS, *more)}
         for group, more in (("points", NUMBERS), ("uncertainty", ()))
     }
+    scattered = all(stored[f"{group}/{name}"] is not None for group in SCATTER for name in FACTORS)
+    scatters = {group: {name: stored[f"{group}/{name}"] for name in FACTORS} for group in SCATTER} if scattered else {}
     points = [
         Point(
             factors=_factors(columns["points"], row, sealed),
             uncertainty=_factors(columns["uncertainty"], row, sealed),
             slopes=stored["points/slopes"][row],
+            scatter=FactorScatter(**{part: _factors(scatters[group], row, sealed) for group, part in SCATTER.items()})
+            if scattered
+            else None,
             **{name: columns["points"][name][row].item() for name in NUMBERS},
         )
         for row, sealed in enumerate(stored["points/sealed"])

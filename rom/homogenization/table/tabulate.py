@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from functools import partial
 from threading import Lock
 
 import numpy as np
@@ -84,14 +85,12 @@ def tabulate(
     ConvergenceError
         If a cell does not converge, or the tolerance is not met in a film of any thickness.
     """
-    if not 1e-6 <= tolerance < 1:
-        raise InputError(f"tolerance: got {tolerance!r}; it must be 1e-6 to 1")
+    checked_tolerance(tolerance)
     body = Separations(heights=np.asarray(unmasked("heights", heights), dtype=np.float64))
     checked_gap(body.heights - np.min(body.heights) + 1.0, spacing)
     if body.rms == 0:
         raise InputError("heights: are all the same; give a rough surface (a smooth wall needs no flow factors)")
     before = {point.separation: point for point in known if point.load == 0}
-    solved: dict[float, Point] = {}
     keeping = Lock()
 
     def solve(separation: float) -> Point:
@@ -100,29 +99,80 @@ def tabulate(
             point = point_of(body.gap(separation), spacing, separation, rule=rule, deformed=False)
             with keeping:
                 keep(point)
-        solved[separation] = point
         return point
 
+    ends = sorted(set(body.sealing())) if narrowest is None else [body.at_mean_gap(narrowest)]
+    return refined(
+        [partial(solve, separation) for separation in ends],
+        lambda mean_gap: solve(body.at_mean_gap(mean_gap)),
+        peak=body.peak,
+        rms=body.rms,
+        tolerance=tolerance,
+        threads=threads,
+        progress=progress,
+    )
+
+
+def checked_tolerance(tolerance: float) -> None:
+    """Raise InputError unless the tolerance of a table is between 1e-6 and 1."""
+    if not 1e-6 <= tolerance < 1:
+        raise InputError(f"tolerance: got {tolerance!r}; it must be 1e-6 to 1")
+
+
+def refined(
+    first: Sequence[Callable[[], Point]],
+    solve: Callable[[float], Point],
+    *,
+    peak: float,
+    rms: float,
+    tolerance: float,
+    threads: int,
+    progress: Progress,
+) -> FactorTable:
+    """A table from the narrowest gap to thick films, refined where interpolation is not accurate enough.
+
+    Parameters
+    ----------
+    first : calls that give the points that the table holds in any case, the narrowest first.
+    solve : solve(mean_gap), the point at a mean gap, m.
+    peak, rms : highest point above the mean and rms height of the surface, m.
+    tolerance : largest interpolation error, see :func:`tabulate`.
+    threads : number of threads that call ``solve``.
+
+    Raises
+    ------
+    ConvergenceError
+        If a cell does not converge, or the tolerance is not met in a film of any thickness.
+    """
+    solved: dict[float, Point] = {}
+
+    def add(call: Callable[[], Point]) -> Point:
+        point = call()
+        solved[point.mean_gap] = point
+        return point
+
+    def at(mean_gap: float) -> Point:
+        return add(partial(solve, mean_gap))
+
     def made(points: Iterable[Point]) -> FactorTable:
-        return FactorTable(points=tuple(sorted(points, key=lambda point: point.mean_gap)), peak=body.peak, rms=body.rms)
+        return FactorTable(points=tuple(sorted(points, key=lambda point: point.mean_gap)), peak=peak, rms=rms)
 
     def half_way(one: Point, two: Point) -> Point | None:
         if two.mean_gap < MIN_GAP_RATIO * one.mean_gap:
             return None
-        return solve(body.at_mean_gap(float(np.sqrt(one.mean_gap * two.mean_gap))))
+        return at(float(np.sqrt(one.mean_gap * two.mean_gap)))
 
-    low, *others = sorted(set(body.sealing())) if narrowest is None else [body.at_mean_gap(narrowest)]
-    first = solve(low)
-    last = max(THICK_FILM * body.rms, 2 * first.mean_gap)
-    wanted = [*others, *map(body.at_mean_gap, np.geomspace(first.mean_gap, last, FIRST_POINTS).tolist()[1:])]
+    narrowest, *others = first
+    lowest = add(narrowest).mean_gap
+    gaps = np.geomspace(lowest, max(THICK_FILM * rms, 2 * lowest), FIRST_POINTS).tolist()[1:]
     with workers(threads) as pool:
-        for _ in pool.map(solve, wanted):
+        for _ in pool.map(add, [*others, *(partial(solve, gap) for gap in gaps)]):
             progress(len(solved) / 40, f"{len(solved)} points")
-    while max(table_errors(table := made(solved.values()), solve(body.at_mean_gap(2 * table.widest)))) > tolerance:
+    while max(table_errors(table := made(solved.values()), at(2 * table.widest))) > tolerance:
         progress(len(solved) / (len(solved) + 20), f"{len(solved)} points")
         if len(solved) > MAX_POINTS:
             raise ConvergenceError(
-                f"table of flow factors: at a mean gap of {table.widest:.3g} m, {table.widest / body.rms:.3g} times "
+                f"table of flow factors: at a mean gap of {table.widest:.3g} m, {table.widest / rms:.3g} times "
                 f"the rms height, roughness still acts; loosen the tolerance of {tolerance:g}"
             )
     points = bisected(
@@ -144,16 +194,20 @@ def point_of(gap: Array, spacing: tuple[float, float], separation: float, *, rul
     cpu = time.thread_time()
     one = flow_factors(gap, spacing, rule=rule)
     slopes = UNKNOWN_SLOPES if deformed else _slopes(gap, spacing, one, rule)
+    return replace(as_point(one, separation), cpu_s=time.thread_time() - cpu, slopes=slopes)
+
+
+def as_point(estimated: Estimated, separation: float) -> Point:
+    """The point of a table from flow factors at a separation, m, with unknown slopes."""
     return Point(
         separation=separation,
-        contact=one.contact,
-        factors=one.factors,
-        uncertainty=one.uncertainty,
-        unsolved=one.unsolved,
-        iterations=one.iterations,
-        residual=one.residual,
-        cpu_s=time.thread_time() - cpu,
-        slopes=slopes,
+        contact=estimated.contact,
+        factors=estimated.factors,
+        uncertainty=estimated.uncertainty,
+        unsolved=estimated.unsolved,
+        iterations=estimated.iterations,
+        residual=estimated.residual,
+        cpu_s=0.0,
     )
 
 

@@ -5,7 +5,7 @@ The solution of each contact starts from that at the load before.
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -67,6 +67,7 @@ class SealSetup:
     spread : E* g' with the rms slope g', Pa; E* for a flat surface.
     most : largest load, Pa.
     name : name of the surface for people.
+    stored_loads : loads, Pa, whose contacts are stored; None for all.
     """
 
     surface: Surface
@@ -77,6 +78,11 @@ class SealSetup:
     spread: float
     most: float
     name: str = ""
+    stored_loads: Collection[float] | None = None
+
+    def stores(self, load: float) -> bool:
+        """Whether the contact at a load, Pa, is stored."""
+        return self.stored_loads is None or load in self.stored_loads
 
 
 def setup(surface: Surface, press: Press, inputs: Inputs, directory: Path, name: str = "") -> SealSetup:
@@ -196,7 +202,8 @@ def solved(body: SealSetup, loads: tuple[float, ...], threads: int, advance: Adv
     pressed = finished(body.contacts, body.inputs)
     kept = kept_series(body.inputs, loads, body.name)
     pure = all(load in kept.series.rows for load in stored.rows)
-    rows = dict(kept.series.rows) | {load: row for load, row in stored.rows.items() if load in pressed}
+    rows = dict(kept.series.rows)
+    rows |= {load: row for load, row in stored.rows.items() if load in pressed or not body.stores(load)}
     known = sum(load in rows for load in loads)
     fresh: list[tuple[ContactRow, Contact | None]] = []
     pending: dict[Future[Row], float] = {}
@@ -226,13 +233,14 @@ def solved(body: SealSetup, loads: tuple[float, ...], threads: int, advance: Adv
         with workers(threads) as pool:
             before: Contact | None = None
             flow = _flow_of(body)
-            for load in (one for one in loads if one not in rows or one not in pressed):
+            for load in (one for one in loads if one not in rows or (body.stores(one) and one not in pressed)):
                 if load in pressed:
                     before = load_contact(body.contacts, load)
                 else:
                     cpu = time.process_time()
                     before = _pressed(body)(load, before)
-                    fresh.append((row_of(before, time.process_time() - cpu), before))
+                    if body.stores(load):
+                        fresh.append((row_of(before, time.process_time() - cpu), before))
                     advance(sum(one in rows for one in loads) / len(loads), f"contact at {load / 1e6:.4g} MPa")
                 if load in rows:
                     save(SAVE_INTERVAL_S)

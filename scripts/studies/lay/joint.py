@@ -108,7 +108,7 @@ def _windows(seed: int, lay: float, nodes: int) -> list[Joint]:
 
 
 def _turned_to_x(surface: Surface) -> Surface:
-    return Surface(heights=np.array(surface.heights.T, order="C"), spacing=surface.spacing[::-1])
+    return Surface(heights=surface.heights.T, spacing=surface.spacing[::-1])
 
 
 def _measured(name: str, prepared: Prepared) -> list[Joint]:

@@ -44,7 +44,7 @@ def prepared_surfaces(folder: Path | None, points: int = POINTS) -> dict[str, Pr
     """The measured surfaces that are in a folder, by name, on ``points`` × ``points`` nodes."""
     if folder is None:
         return {}
-    recipe = read_recipe({"grid": {"points": [points, points]}})
+    recipe = read_recipe({"grid": {"points": [points, points]}, "edges": {"method": "blended"}})
     files = [folder / name for name in (OBLIQUE, STRIATED)]
     return {file.name: prepare(read_surface(file), recipe) for file in files if file.is_file()}
 

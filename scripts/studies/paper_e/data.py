@@ -55,7 +55,7 @@ FRICTION = 0.1
 
 
 def _asperities(wall: Wall) -> AsperityTable:
-    assert wall.asperities is not None
+    assert isinstance(wall.asperities, AsperityTable)
     return wall.asperities
 
 
@@ -112,7 +112,7 @@ def speed_of(scene: Bearing, turns: float) -> float:
 def surfaces(folder: Path | None, points: int = POINTS) -> dict[str, Surface]:
     """Return the three synthetic surfaces of Table E.2, and the measured ones that are in a folder."""
     found = {name: made(name, points) for name in TABLE}
-    recipe = {"grid": {"points": [points, points]}}
+    recipe = {"grid": {"points": [points, points]}, "edges": {"method": "blended"}}
     if folder is not None and (folder / MILLED).is_file():
         found["milled"] = prepare(read_surface(folder / MILLED), read_recipe(recipe)).surface
     if folder is not None and (folder / GROUND).is_file():

@@ -168,6 +168,7 @@ def recipe(
             "start": [f"{place * length} m" for place, length in zip(start, measured.size, strict=True)],
         },
         "grid": {"points": [max(16, round(count * resolution) // coarser) for count in whole]},
+        "edges": {"method": "blended"},
         "smoothing": 5 if resolution > 1 else 3,
     }
 

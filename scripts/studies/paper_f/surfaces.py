@@ -142,7 +142,7 @@ def measured_surfaces(folder: Path | None, points: int = POINTS, names: Sequence
     """Return the measured surfaces of a folder, prepared, with the longer side scaled to ``SIDE`` and Sa scaled."""
     if folder is None:
         return []
-    recipe = read_recipe({"grid": {"points": [points, points]}})
+    recipe = read_recipe({"grid": {"points": [points, points]}, "edges": {"method": "blended"}})
     made = []
     for number, file in enumerate(folder / name for name in names):
         if file.is_file():

@@ -111,8 +111,12 @@ def milled_window(folder: Path | None, target: Path) -> Path | None:
 
 
 def window_of(measured: Surface, size: Sequence[float], points: Sequence[int]) -> Surface:
-    """Return the window of at least ``size``, m, whose edges match best, prepared as by ``roughfilm surface``."""
-    recipe = {"window": {"size": [f"{side} m" for side in size]}, "grid": {"points": [*points]}}
+    """Return the window of at least ``size``, m, whose edges match best, prepared with blended edges."""
+    recipe = {
+        "window": {"size": [f"{side} m" for side in size]},
+        "grid": {"points": [*points]},
+        "edges": {"method": "blended"},
+    }
     return prepare(measured, read_recipe(recipe)).surface
 
 

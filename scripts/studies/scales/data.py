@@ -9,7 +9,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.preparation.prepare import prepare
-from roughfilm.contact.preparation.recipe import Grid, Recipe
+from roughfilm.contact.preparation.recipe import Edges, Grid, Recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.ladder import find
@@ -173,7 +173,7 @@ def measured(surfaces: Path | None, directory: Path, name: str = SURFACE, points
     source = surfaces and surfaces / name
     if source is None or not source.is_file():
         return None
-    recipe = Recipe(grid=Grid(points=(points, points)))
+    recipe = Recipe(grid=Grid(points=(points, points)), edges=Edges(method="blended"))
     cell = prepare(read_surface(source), recipe).surface
     target = directory / "cell.h5"
     save_surface(cell, target)

@@ -13,6 +13,8 @@ FORMS = {
     "mean": 3e-6 + 0 * X,
     "tilt": 1e-6 + 0.02 * X - 0.3 * Y,
     "quadratic": 0.01 * X + 0.1 * Y + 300 * X**2 - 200 * X * Y + 5000 * Y**2,
+    "quartic": 0.01 * X + 300 * X**2 - 2e6 * X * Y**2 + 4e10 * X**2 * Y**2 - 9e9 * X**4,
+    "sextic": 0.1 * Y + 4e10 * X**2 * Y**2 + 3e18 * X**6 - 5e18 * X**2 * Y**4,
 }
 
 
@@ -22,7 +24,7 @@ def surface(heights, invalid=None):
     )
 
 
-@pytest.mark.parametrize("form", ["mean", "tilt", "quadratic"])
+@pytest.mark.parametrize("form", FORMS)
 def test_a_form_of_that_order_vanishes_by_the_valid_points_alone(form):
     invalid = np.random.default_rng(811).random((NX, NY)) < 0.4
     heights = np.where(invalid, 1e3, FORMS[form])

@@ -8,6 +8,8 @@ from roughfilm.contact.preparation.recipe import Recipe, load_recipe, read_recip
 
 FULL = """
 form = "tilt"
+s_filter = "2.5 um"
+l_filter = "0.25 mm"
 smoothing = 5
 [read]
 channel = "Raw"
@@ -36,6 +38,7 @@ def test_a_full_recipe_is_read_in_si_units_and_written_back(tmp_path):
     assert recipe.read.spacing == (1.5e-6, 2e-6)
     assert recipe.grid.points == (640, 480)
     assert recipe.edges.width == 12e-6
+    assert (recipe.s_filter, recipe.l_filter) == (2.5e-6, 2.5e-4)
     assert read_recipe(recipe_entries(recipe)) == recipe
 
 
@@ -64,13 +67,26 @@ def test_overrides_reach_every_table():
     assert recipe.window.size == (1e-3, 2e-3)
 
 
+def test_an_s_filter_takes_the_place_of_the_moving_average():
+    assert load_recipe(None, ["s_filter=2 um"]).smoothing == 1
+    assert load_recipe(None, ["l_filter=2 um"]).smoothing == 3
+    assert load_recipe(None, ["s_filter=2 um", "smoothing=5"]).smoothing == 5
+
+
+def test_an_l_filter_below_the_s_filter_is_refused():
+    with pytest.raises(InputError, match=r"^recipe: got l_filter 2 um and s_filter 3 um; .* the larger nesting index$"):
+        load_recipe(None, ["s_filter=3 um", "l_filter=2 um"])
+
+
 @pytest.mark.parametrize(
     ("override", "message"),
     [
         ("forn=tilt", r"^recipe\.forn: unknown key; did you mean 'form'\?"),
         ("edges.directon=x", r"^recipe\.edges\.directon: unknown key; did you mean 'direction'\?"),
         ("window.sise=1", r"^recipe\.window\.sise: unknown key; did you mean 'size'\?"),
-        ("form=cubic", r"^recipe\.form: got 'cubic'; it must be 'none', 'mean', 'tilt' or 'quadratic'"),
+        ("form=septic", r"^recipe\.form: got 'septic'; it must be 'none', 'mean', 'tilt', .* or 'sextic'"),
+        ("s_filter=2.5", r"^recipe\.s_filter: got 2\.5, a number without a unit"),
+        ("l_filter=0 um", r"^recipe\.l_filter: got '0 um'; it must be above zero"),
         ("edges.width=5", r"^recipe\.edges\.width: got 5, a number without a unit; write for example '5 m'"),
         ("edges.width=5 s", r"^recipe\.edges\.width: got '5 s', which has the wrong dimension"),
         ("read.spacing=0 um", r"^recipe\.read\.spacing\.0: got '0 um'; it must be above zero$"),

@@ -57,6 +57,8 @@ WRITERS = {
     "solve": ["solve", "p.toml", "--model", "reynolds", "--out", "letter"],
     "surface": ["surface", "rough.toml", "--out", "letter"],
     "surface, page": ["surface", "rough.toml", "--report", "letter"],
+    "combine": ["combine", "rough.toml", "rough.toml", "--out", "letter"],
+    "combine, page": ["combine", "rough.toml", "rough.toml", "--report", "letter"],
     "export": ["export", "rough.toml", "--out", "letter.stl"],
     "contact": ["contact", "rough.toml", "--modulus", "1GPa", "--poisson", "0.3", "--loads", "1MPa", "--out", "letter"],
     "contact, page": [
@@ -74,7 +76,7 @@ def test_a_file_of_another_kind_is_kept(place, words):
     assert done.exit_code == 2
     assert f"{words[-1]}: exists and is not a" in done.stderr
     assert "name another place or remove it" in done.stderr
-    assert ("or give --overwrite" in done.stderr) == (words[0] in {"solve", "surface", "export"})
+    assert ("or give --overwrite" in done.stderr) == (words[0] in {"solve", "surface", "combine", "export"})
     assert (place / words[-1]).read_text() == LETTER
 
 

@@ -9,6 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from roughfilm.cli.main import app
+from roughfilm.contact.parameters.bearing_curve import bearing_core, descending
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
@@ -45,7 +46,9 @@ def test_json_is_one_object_with_parameters_before_and_after(run, csv, tmp_path)
     told = json.loads(done.stdout)
     assert set(told) == {"quantities", "numerics", "provenance"}
     names = {*PARAMETERS, *(f"raw_{name}" for name in PARAMETERS)}
-    assert names | {"invalid_fraction", "periodicity_mismatch", "raw_periodicity_mismatch"} == set(told["quantities"])
+    fractions = {"invalid_fraction", "outlier_fraction", "filled_fraction"}
+    assert names | fractions | {"periodicity_mismatch", "raw_periodicity_mismatch"} == set(told["quantities"])
+    assert told["quantities"]["filled_fraction"]["value"] == pytest.approx(1 / 4800)
     assert told["quantities"]["invalid_fraction"]["value"] == pytest.approx(1 / 4800)
     assert told["quantities"]["raw_Sq"] == {"value": pytest.approx(1e-6, rel=0.3), "unit": "m"}
     assert told["numerics"]["residual"] <= 1e-9
@@ -55,6 +58,35 @@ def test_json_is_one_object_with_parameters_before_and_after(run, csv, tmp_path)
     assert stored.shape == (128, 64)
     assert stored.heights.std() == pytest.approx(told["quantities"]["Sq"]["value"], rel=1e-12)
     assert stored.source["recipe"] == told["provenance"]["recipe"]
+
+
+def test_the_bearing_curve_of_the_measurement_is_that_of_its_valid_points(run, tmp_path):
+    """A third of the points is invalid, in a deep valley, whose fill would count in Svk."""
+    x = np.linspace(-1, 1, 60)
+    heights = np.random.default_rng(853).normal(size=(60, 60)) * 0.1 - 5 * np.exp(-((x / 0.4) ** 2))
+    invalid = np.broadcast_to(np.abs(x) < 0.3, heights.shape)
+    measured = Surface(heights=1e-6 * heights, spacing=(1e-6, 1e-6), invalid=invalid)
+    save_surface(measured, tmp_path / "s.h5")
+    recipe = ["--set", "form=none", "--set", "outliers.limit=0", "--set", "outliers.points=0"]
+    found = json.loads(run(tmp_path / "s.h5", "--json", *recipe).stdout)["quantities"]
+    core = bearing_core(descending(measured.heights[~invalid]))
+    assert found["raw_Sk"]["value"] == pytest.approx(core.height, rel=1e-12)
+    assert found["raw_Spk"]["value"] == pytest.approx(core.peak, rel=1e-12)
+    assert found["raw_Svk"]["value"] == pytest.approx(core.valley, rel=1e-12)
+    assert found["filled_fraction"]["value"] == pytest.approx(invalid.mean())
+
+
+def test_the_output_counts_what_is_invalid_spiked_and_filled(run, tmp_path):
+    invalid, heights = np.zeros((80, 80), bool), np.random.default_rng(854).normal(size=(80, 80))
+    invalid[30:36, 40:46] = True
+    heights[29, 40:46] = heights[5, 5] = 300
+    save_surface(Surface(heights=1e-7 * heights, spacing=(1e-6, 1e-6), invalid=invalid), tmp_path / "s.h5")
+    done = run(tmp_path / "s.h5", "--report", tmp_path / "page.html")
+    shown, page = " ".join(done.output.split()), " ".join((tmp_path / "page.html").read_text().split())
+    assert "spikes: 1 points of spikes, 6 on rims of invalid regions" in shown
+    assert "filled: 43 points, 0.67 %, of which 36 were invalid" in shown
+    assert "7 are points of spikes or of rims of invalid regions (0.11 %)" in page
+    assert "43 points are filled in (0.67 %)" in page
 
 
 def test_the_recipe_file_decides(run, csv, tmp_path):
@@ -97,7 +129,7 @@ def test_people_get_a_table_and_the_warnings(run, csv):
     done = run(csv, "--set", "edges.direction=none")
     assert done.exit_code == 0
     assert re.search(r"Sa\b.*µm", done.output)
-    assert "filled: 1 invalid points" in done.output
+    assert "filled: 1 points, 0.021 %, of which 1 were invalid" in done.output
     assert "warning: periodicity mismatch" in done.output
 
 

@@ -38,6 +38,7 @@ RUNS = {
     "surface": ["surface rough.toml --out cell.h5"],
     "fit": ["fit rough.toml --windows 16 --seeds 40"],
     "windows": ["windows rough.toml --scene seal.toml --windows 4 --size 80um --sizes 40um --jobs 1 --out windows"],
+    "combine": ["combine rough.toml rough.toml", "combine rough.toml rough.toml --operation sum --out walls.h5"],
     "contact": ["contact rough.toml --modulus 10MPa --poisson 0.5 --loads 1kPa,20kPa --out contacts.h5"],
     "factors": ["factors rough.toml --gap 0.5um"],
     "batch": ["batch study.toml --out sweep --jobs 1", "batch study.toml --out sweep --jobs 1 --dry-run"],

@@ -23,7 +23,7 @@ MEASURED = {
 
 
 def plan_of(given, *, set_=(), **options):
-    options = {"count": 6, "size": 1e-4, "sizes": [], "name": "m", **options}
+    options = {"count": 6, "size": 1e-4, "sizes": None, "name": "m", **options}
     return planned(given, load_recipe(None, set_, USUAL), progress=lambda *_: None, **options)
 
 
@@ -62,9 +62,10 @@ def test_a_window_is_prepared_as_the_recipe_prepares_it(measured):
 
 def test_the_direction_of_the_edges_is_that_of_the_whole_surface():
     lay = make(read_entries(MEASURED | {"anisotropy": 8}))
-    plan = plan_of(lay.with_heights(lay.heights, periodic=False), count=9)
+    plan = plan_of(lay.with_heights(lay.heights, periodic=False), count=9, set_=["edges.method=blended"])
     directions = {cell.source["record"]["edges"]["direction"] for group in plan.groups for cell in group.cells}
     assert directions == {"x"}
+    assert len({str(cell.source["record"]["edges"]["width"]) for group in plan.groups for cell in group.cells}) == 1
 
 
 def test_seeds_of_a_description_keep_its_spacing_and_differ(tmp_path):
@@ -103,7 +104,8 @@ def test_a_description_without_a_seed_is_refused(tmp_path):
 
 def test_the_default_size_is_five_decay_lengths_and_at_most_half_of_the_measurement(measured):
     rng = np.random.default_rng(1)
-    plan = plan_of(measured, size=None, count=1)
+    plan = plan_of(measured, size=None, count=1, sizes=[])
+    assert len(plan.groups) == 1
     assert plan.groups[0].size == pytest.approx(1.5e-4, rel=0.05)
     rough = Surface(heights=1e-6 * rng.normal(size=(256, 256)), spacing=(1e-6, 1e-6))
     plan = plan_of(rough, size=None, count=16)

@@ -475,14 +475,31 @@ def test_a_prepared_surface_fits_to_itself_and_keeps_its_middle() -> None:
 
 
 def test_windows_lead_to_the_rms_height_of_the_whole_surface() -> None:
-    """The heights of the surface have an rms of 1 µm; its windows lack some of it at their margins."""
+    """The heights of the surface have an rms of 1 µm; its windows lack its longest waves."""
     values = values_of("surfaces/windows_of_a_measurement")
     trend, whole = values["sq"].trend, values["measured"].heights.std()
     assert whole == pytest.approx(1e-6)
     assert trend.limit == pytest.approx(whole, abs=trend.limit_uncertainty)
     assert trend.limit_uncertainty < 0.15e-6
-    assert trend.part < 0
-    assert values["sq"].scatter.mean == pytest.approx(0.945e-6, rel=0.02)
+    low, high = values["sq"].scatter.interval
+    assert low < 0.95 * whole < 1.05 * whole < high
+
+
+def test_the_rms_height_over_the_nesting_index_is_that_of_the_waves_that_are_kept() -> None:
+    """The two waves of 2 µm and 0.5 µm keep 2^-(S/L)² (1 − 2^-(L'/L)²) of their amplitudes L."""
+    for index, rms in values_of("surfaces/nesting_indices")["sq"].items():
+        kept = [
+            height * 2 ** (-((8 / length) ** 2)) * (1 - 2 ** (-((index / length) ** 2)))
+            for height, length in ((2e-6, 500), (0.5e-6, 25))
+        ]
+        assert rms == pytest.approx(np.hypot(*kept) / np.sqrt(2), rel=1e-3)
+
+
+def test_the_worn_volume_is_that_of_the_scar_within_its_uncertainty() -> None:
+    values = values_of("surfaces/wear")
+    gone = values["gone"]
+    assert abs(gone.value - values["true_volume"]) < 1.5 * gone.uncertainty < 0.05 * gone.value
+    assert [shift.value for shift in values["shift"]] == pytest.approx([-4.3 * 2e-6, 2.6 * 2e-6], abs=0.02 * 2e-6)
 
 
 def test_seeds_of_a_description_hold_the_windows_of_a_random_surface() -> None:

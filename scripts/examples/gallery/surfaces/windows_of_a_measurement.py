@@ -2,8 +2,8 @@
 =====================================
 
 How well does one window know a surface? The rms height is computed in windows of three sizes. Smaller windows scatter
-more, and the margin that joins their edges is a larger part of them. The mean over the inverse of the side leads to the
-whole surface, whose rms height is 1 µm here.
+more, lack long waves, and are changed by a larger part where their edges are joined. The mean over the inverse of the
+side leads to the whole surface, whose rms height is 1 µm here.
 """
 
 import tempfile

@@ -1,4 +1,4 @@
-"""Step 6 of the preparation: join opposite edges and leave the interior as measured."""
+"""Edges joined as in the source: blend the margin with a low-pass filtered copy; leave the interior."""
 
 from typing import Literal
 
@@ -7,6 +7,7 @@ import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.preparation.edges.joined import Joined
 from roughfilm.contact.surfaces.surface import Surface
 
 Direction = Literal["x", "y", "both", "none"]
@@ -21,13 +22,14 @@ AXES: dict[Direction, tuple[int, ...]] = {"x": (0,), "y": (1,), "both": (0, 1), 
 """Axes along which edges are joined, by direction."""
 
 
-def make_periodic(surface: Surface, direction: Direction, *, width: tuple[float, float]) -> Surface:
+def blend_edges(surface: Surface, direction: Direction, *, width: tuple[float, float]) -> Joined:
     """Blend the heights near the edges with a periodic low-pass filtered copy, so that opposite edges match.
 
     h' = (1 − w) h + w (g ∗ h), with g a periodic Gaussian filter truncated at r = ⌈3 σ⌉ pixels and
     1 − w = (1 − a(x)) (1 − a(y)), where a is the autocorrelation of g at the distance from the nearer edge: 1 at the
     edge, 0 beyond 2 r pixels, where heights stay unchanged bit for bit. If one direction is joined, g and a act along
-    this direction only, and ridges across it stay sharp.
+    this direction only, and ridges across it stay sharp. The margin is smoother than the interior and seals earlier:
+    see ``roughfilm.contact.preparation.edges.seams``.
 
     Parameters
     ----------
@@ -37,7 +39,7 @@ def make_periodic(surface: Surface, direction: Direction, *, width: tuple[float,
 
     Returns
     -------
-    Surface : periodic unless the direction is "none".
+    Joined : periodic unless the direction is "none"; its weight is w.
 
     Raises
     ------
@@ -58,7 +60,8 @@ def make_periodic(surface: Surface, direction: Direction, *, width: tuple[float,
         weight = _weight(filter_, count)
         untouched = untouched * (1 - (weight[:, None] if axis == 0 else weight[None, :]))
     heights = np.where(untouched == 1, surface.heights, untouched * surface.heights + (1 - untouched) * blurred)
-    return surface.with_heights(heights, periodic=surface.periodic or direction != "none")
+    joined = surface.with_heights(heights, periodic=surface.periodic or direction != "none")
+    return Joined(surface=joined, weight=1 - untouched)
 
 
 def largest_width(count: int) -> float:

@@ -1,0 +1,76 @@
+"""A unit that cannot be right is named with its value, range and remedy, and nothing is altered."""
+
+import re
+
+import numpy as np
+import pytest
+
+from roughfilm.contact.preparation.prepare import prepare
+from roughfilm.contact.preparation.recipe import Recipe
+from roughfilm.contact.surfaces.plausibility import implausible
+from roughfilm.contact.surfaces.surface import Surface
+
+COUNT = 64
+
+
+def rough(spacing=2.5e-6, rms=1e-6, **changes):
+    """A smooth random surface, periodic by its making."""
+    rng = np.random.default_rng(881)
+    q = np.hypot(np.fft.fftfreq(COUNT)[:, None], np.fft.rfftfreq(COUNT)[None, :]) * COUNT
+    heights = np.fft.irfft2(np.fft.rfft2(rng.normal(size=(COUNT, COUNT))) * (q < 8), s=(COUNT, COUNT))
+    heights -= heights.mean()
+    return Surface(heights=rms * heights / heights.std(), spacing=(spacing, spacing), **changes)
+
+
+@pytest.mark.parametrize("spacing", [1.01e-9, 1e-7, 1e-5, 0.99e-3])
+@pytest.mark.parametrize("relative", [1e-4, 1e-2, 1])
+def test_usual_surfaces_pass(spacing, relative):
+    assert implausible(rough(spacing, max(relative * spacing, 2e-11))) == ()
+
+
+@pytest.mark.parametrize(
+    ("spacing", "rms", "said"),
+    [
+        (2.5, 1e-6, "the pixel spacing is 2.5 x 2.5 m, outside of the plausible 1e-09 to 0.001 m;.* set read.spacing "),
+        (2.5e-12, 1e-12, "the pixel spacing is 2.5e-12 x .* set read.spacing "),
+        (2.5e-6, 1e-4, "the rms slope is .*, not below the plausible 3;.* set read.spacing, or read.height_unit, "),
+        (2.5e-6, 1.0, "the rms slope is .* set read.height_unit in"),
+        (1e-3, 5e-12, "the rms height is 5e-12 m, 5e-09 pixels, outside of the plausible 1e-05 to .*read.height_unit"),
+    ],
+)
+def test_a_wrong_unit_is_named_with_its_range_and_remedy(spacing, rms, said):
+    sentence, *_ = implausible(rough(spacing, rms), "s.csv")
+    assert re.match(f"s.csv: {said}", sentence)
+    assert sentence.endswith("in the recipe of roughfilm surface")
+
+
+def test_a_plane_has_its_slope():
+    x = np.arange(COUNT)
+    for slope, wrong in ((2.9, False), (3.1, True)):
+        plane = Surface(heights=1e-6 * slope / np.sqrt(2) * (x[:, None] + x[None, :]), spacing=(1e-6, 1e-6))
+        assert bool(implausible(plane)) == wrong
+
+
+def test_a_few_spikes_and_invalid_points_are_no_wrong_unit():
+    given = rough()
+    heights, invalid = given.heights.copy(), np.zeros(given.shape, bool)
+    heights[10, 20] = heights[40, 50] = 1e-3
+    invalid[30:40, 3:9] = True
+    assert implausible(given.with_heights(heights, invalid=invalid)) == ()
+
+
+def test_a_flat_surface_passes():
+    assert implausible(Surface(heights=np.ones((4, 4)), spacing=(1e-6, 1e-6))) == ()
+
+
+def test_a_synthetic_surface_has_the_units_of_its_description():
+    source = {"prepared_from": {"synthetic": {}}}
+    assert implausible(rough(2.5, 1e-6, source=source)) == ()
+
+
+def test_preparation_warns_and_alters_nothing():
+    wrong, right = (prepare(rough(spacing), Recipe()) for spacing in (2.5, 2.5e-6))
+    assert any(warning.startswith("the pixel spacing is 2.5 x 2.5 m") for warning in wrong.warnings)
+    assert not any("plausible" in warning for warning in right.warnings)
+    assert wrong.surface.spacing == pytest.approx([1e6 * step for step in right.surface.spacing])
+    assert np.array_equal(wrong.surface.heights, right.surface.heights)
