@@ -171,7 +171,9 @@ def _phases(windows: Array, copies: Array) -> Iterator[Finding]:
 def _scatter(name: str, logarithms: Array) -> Iterator[Finding]:
     """Whether windows scatter more than their copies (Brown and Forsythe)."""
     own, copies = logarithms.T
-    ratio = float(own.std() / copies.std()) if copies.std() > 0 else math.inf
+    if not copies.std() > 0:
+        return
+    ratio = float(own.std() / copies.std())
     if ratio > LEAST_SCATTER and scipy.stats.levene(own, copies, center="median").pvalue < RARE:
         yield Finding(
             name="scatter",

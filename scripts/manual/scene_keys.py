@@ -78,7 +78,8 @@ def _tables(path: str, node: Mapping[str, Any], definitions: Mapping[str, Any]) 
     keys, inner = [], []
     for name, given in node["properties"].items():
         forms = [*forms_of(given, definitions)]
-        inner += [(name, given, form) for form in forms if "properties" in form]
+        items = [item for form in forms if "items" in form for item in forms_of(form["items"], definitions)]
+        inner += [(name, given, form) for form in (*forms, *items) if "properties" in form]
         place = f"{path}.{name}" if path else name
         keys.append(_key(name, given, forms, place=place, required=name in node.get("required", ())))
     yield path and f"[{path}]", node.get("description", ""), keys
