@@ -13,7 +13,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import RandomField, read_entries
-from roughfilm.contact.synthetic.random_field import DECIBEL, MIN_WINDOWS, at_scores, octave_of
+from roughfilm.contact.synthetic.random_field import DECIBEL, LEAST_ROOT, MIN_WINDOWS, at_scores, octave_of
 
 SINGLE_WAVES = 8
 """Wave number up to which the table has every wave; beyond it, four for each octave."""
@@ -24,11 +24,11 @@ SCORE_COUNT = 15
 LEAST_POWER = 1e-10
 """Power of an octave over that of all below which it counts as this power."""
 
-LEAST_STEP = 1e-4
-"""Smallest step between two quantiles, in units of the rms height."""
+LEAST_DEVIATION = 1e-6
+"""Standard deviation of a logarithm or a square root below which windows do not differ in it."""
 
 VARIANCE_KEPT = 0.99
-"""Fraction of the variance of the logarithms that the modes keep."""
+"""Fraction of the variance that the modes keep."""
 
 DEEPEST = -200.0
 """Smallest power of a wave in the table, decibels below the largest."""
@@ -39,8 +39,8 @@ def fit_random_field(cells: Sequence[Surface], independent: float | None = None)
 
     The table of the spectrum is the mean over the windows of the power of each wave over that of its octave, averaged
     over the wave vectors nearest to each entry. The population has the mean and the covariance of the logarithms of
-    the powers of the octaves and of the steps between the quantiles of the heights, in units of the rms height of each
-    window. The principal components that carry 99 % of the variance become modes.
+    the powers of the octaves and of the square roots of the steps between the quantiles of the heights, in units of the
+    rms height of each window. The principal components that carry 99 % of the variance become modes.
 
     Parameters
     ----------
@@ -75,8 +75,8 @@ def fit_random_field(cells: Sequence[Surface], independent: float | None = None)
     shares = (power / own[:, octaves.ravel()].reshape(power.shape)).mean(axis=0) * np.exp(mean_octaves)[octaves]
     waves = [_wave_numbers(top) for top in tops]
     scores, steps = _steps(heights / rms[:, None, None])
-    logarithms = np.hstack([np.log(own), steps])
-    z = np.concatenate([[0.0], np.cumsum(np.exp(steps.mean(axis=0)))])
+    values = np.hstack([np.log(own), steps])
+    z = np.concatenate([[0.0], np.cumsum(steps.mean(axis=0) ** 2)])
     middle = at_scores(scores, z, scipy.special.ndtri((np.arange(nx * ny) + 0.5) / (nx * ny)))
     return _read(
         {
@@ -101,7 +101,7 @@ def fit_random_field(cells: Sequence[Surface], independent: float | None = None)
                         "octaves": _rounded(mode[:octave_count] / DECIBEL, 3),
                         "steps": _rounded(mode[octave_count:], 4),
                     }
-                    for mode in _modes(logarithms, worth)
+                    for mode in _modes(values, worth)
                 ],
             },
         }
@@ -168,24 +168,31 @@ def _nearest(points: int, numbers: Sequence[int]) -> NDArray[np.intp]:
 
 
 def _steps(heights: Array) -> tuple[Array, Array]:
-    """Normal scores, and the logarithms of the steps between the heights of each window at them."""
+    """Normal scores, and the square roots of the steps between the heights of each window at them."""
     count = heights[0].size
     x = scipy.special.ndtri((np.arange(count) + 0.5) / count)
     scores = np.linspace(x[0], x[-1], SCORE_COUNT)
     at = np.array([np.interp(scores, x, np.sort(one, axis=None)) for one in heights])
-    return scores, np.log(np.maximum(np.diff(at, axis=1), LEAST_STEP))
+    return scores, np.sqrt(np.maximum(np.diff(at, axis=1), LEAST_ROOT**2))
 
 
-def _modes(logarithms: Array, worth: float) -> Array:
-    """Principal components, each times its standard deviation, that carry most of the variance, shape (modes, n)."""
-    changes = logarithms - logarithms.mean(axis=0)
-    _, sizes, directions = np.linalg.svd(changes, full_matrices=False)
+def _modes(values: Array, worth: float) -> Array:
+    """Principal components, each times its standard deviation, that carry most of the variance, shape (modes, n).
+
+    The variance counts in units of that of each column, as the columns have different units.
+    """
+    changes = values - values.mean(axis=0)
+    deviations = changes.std(axis=0)
+    some = deviations > LEAST_DEVIATION
+    if not some.any():
+        return np.empty((0, values.shape[1]))
+    _, sizes, directions = np.linalg.svd(changes[:, some] / deviations[some], full_matrices=False)
     total = np.cumsum(sizes**2)
-    if not total[-1] > 1e-12 * changes.size:
-        return np.empty((0, logarithms.shape[1]))
     kept = int(np.searchsorted(total, VARIANCE_KEPT * total[-1])) + 1
     scale = 1 / math.sqrt(len(changes) * (1 - 1 / worth))
-    return np.asarray(scale * sizes[:kept, None] * directions[:kept])
+    modes = np.zeros((kept, values.shape[1]))
+    modes[:, some] = scale * sizes[:kept, None] * directions[:kept] * deviations[some]
+    return modes
 
 
 def _rounded(values: Array, digits: int) -> list[float]:

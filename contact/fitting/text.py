@@ -19,7 +19,7 @@ COMMENTS = {
     "population": "how windows differ; octaves: decibels of the power from the longest waves on; heights: over the rms "
     "height, at normal scores",
     "population.modes": "independent changes between windows of one standard deviation: decibels of octaves, "
-    "logarithms of the steps between heights",
+    "square roots of the steps between heights",
 }
 """The comment of each table."""
 

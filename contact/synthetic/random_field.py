@@ -23,6 +23,9 @@ MIN_WINDOWS = 4.0
 MAX_CHANGE = 8.0
 """Largest change of a logarithm from its mean; it bounds what few windows may extrapolate to."""
 
+LEAST_ROOT = 0.01
+"""Smallest square root of a step between heights, in units of the rms height."""
+
 ITERATIONS = 20
 """Largest number of iterations that bring spectrum and heights together."""
 
@@ -69,7 +72,7 @@ class Mode(Part):
     Attributes
     ----------
     octaves : change of the power of each octave, decibels.
-    steps : change of the natural logarithm of each step between heights.
+    steps : change of the square root of each step between heights.
     """
 
     octaves: Numbers
@@ -123,12 +126,12 @@ def random_field(
 ) -> Surface:
     """A random surface that scatters from seed to seed as the windows of a surface do.
 
-    A seed first draws the logarithms v of the powers of all octaves and of the steps between heights at given
-    quantiles: v = v̄ + sqrt(1 + 1/N) Σ gₖ mₖ / sqrt(χ²/(N - 1)), with the modes mₖ, normal gₖ and χ² of N - 1 degrees of
-    freedom, the distribution of a further window if N independent ones were drawn from a multivariate normal
+    A seed first draws v, the logarithms of the powers of all octaves and the square roots of the steps between heights
+    at given quantiles: v = v̄ + sqrt(1 + 1/N) Σ gₖ mₖ / sqrt(χ²/(N - 1)), with the modes mₖ, normal gₖ and χ² of N - 1
+    degrees of freedom, the distribution of a further window if N independent ones were drawn from a multivariate normal
     distribution. It then draws waves of random phase and Rayleigh amplitude whose mean power has the direction and
-    wavelength of the table, scales each octave to its power, and brings the heights to their quantiles by the
-    iteration of ``roughfilm.contact.synthetic.distribution.with_heights_of``.
+    wavelength of the table, scales each octave to its power, and brings the heights to their quantiles by the iteration
+    of ``roughfilm.contact.synthetic.distribution.with_heights_of``.
 
     Parameters
     ----------
@@ -192,7 +195,7 @@ def random_field(
 
 def drawn(population: Population, random: np.random.Generator) -> tuple[Array, Array]:
     """Powers of the octaves of one seed, m², and its heights at the scores, in any unit and of any mean."""
-    octaves, steps = DECIBEL * np.array(population.octaves), np.log(np.diff(population.heights))
+    octaves, steps = DECIBEL * np.array(population.octaves), np.sqrt(np.diff(population.heights))
     octaves = octaves - scipy.special.logsumexp(octaves) + 2 * math.log(population.rms_height)
     freedom = population.windows - 1
     factor = math.sqrt((1 + 1 / population.windows) * freedom / random.chisquare(freedom))
@@ -201,7 +204,7 @@ def drawn(population: Population, random: np.random.Generator) -> tuple[Array, A
         change_of_octaves += factor * weight * DECIBEL * np.array(mode.octaves)
         change_of_steps += factor * weight * np.array(mode.steps)
     power = np.exp(octaves + np.clip(change_of_octaves, -MAX_CHANGE, MAX_CHANGE))
-    growth = np.exp(steps + np.clip(change_of_steps, -MAX_CHANGE, MAX_CHANGE))
+    growth = np.maximum(steps + change_of_steps, LEAST_ROOT) ** 2
     return np.asarray(power), np.concatenate([[0.0], np.cumsum(growth)])
 
 

@@ -67,13 +67,13 @@ def test_the_page_answers_first(place):
     assert text.index("How sure:") < text.index("Power spectrum") < text.index("Scatter")
 
 
-def test_the_interface_gives_the_fit_of_the_command(place):
-    folder, entries = place
-    fit = rf.fit_description(folder / "field.toml", windows=16, seeds=40)
-    assert {name: one.inside for name, one in fit.held.items()} == {
-        name: one["inside"] for name, one in entries["held"].items()
-    }
-    assert fit.surface_of(0).heights.tobytes() == rf.read_surface(folder / "fitted.toml").heights.tobytes()
+def test_the_interface_refuses_what_is_no_surface(place):
+    with pytest.raises(rf.InputError, match="give a Surface"):
+        rf.fit_description([[0.0]])
+    with pytest.raises(rf.InputError, match="read_surface"):
+        rf.fit_description("measured.x3p")
+    with pytest.raises(rf.InputError, match="needs no preparation"):
+        rf.fit_description(place[0] / "field.toml", recipe={"form": "tilt"})
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 
 import roughfilm as rf
 
-text = 'kind = "gaussian"\nsize = ["192 um", "192 um"]\npoints = [192, 192]\nseed = 3\nrms_height = "1 um"\n'
+text = 'kind = "gaussian"\nsize = ["128 um", "128 um"]\npoints = [128, 128]\nseed = 3\nrms_height = "1 um"\n'
 text += 'correlation_length = "6 um"\nanisotropy = 2\nlay_angle = "30 deg"\namplitudes = "random"\n'
 text += "height_distribution = { skewness = -0.8 }\n"
 with tempfile.TemporaryDirectory() as directory:
@@ -27,7 +27,7 @@ for name, surfaces in (("windows", fit.group.cells), ("seeds", [fit.surface_of(k
     skewness[name] = [rf.parameters(surface)["Ssk"].value for surface in surfaces]
 
 fig, (left, right) = plt.subplots(1, 2, figsize=(6, 3), layout="constrained")
-left.imshow(1e6 * seed.heights.T, extent=(0, 48, 0, 48), origin="lower")
+left.imshow(1e6 * seed.heights.T, extent=(0, 32, 0, 32), origin="lower")
 left.set(xlabel="x (µm)", ylabel="y (µm)", title="A seed")
 right.loglog(fit.seeds[:, 0], 1e18 * fit.seeds[:, 2], ".", color="0.7", label="seeds")
 right.loglog(fit.windows[:, 0], 1e18 * fit.windows[:, 2], ".", label="windows")
