@@ -54,7 +54,7 @@ def s_filter(surface: Surface, index: float) -> Surface:
     --------
     >>> wave = 1e-6 * np.cos(2 * np.pi * np.arange(40) / 40)
     >>> surface = Surface(heights=np.tile(wave, (20, 1)), spacing=(1e-6, 1e-6), periodic=True)
-    >>> round(np.ptp(s_filter(surface, 20e-6).heights) / np.ptp(surface.heights), 6)  # 2 ** -0.25
+    >>> round(float(np.ptp(s_filter(surface, 20e-6).heights) / np.ptp(surface.heights)), 6)  # 2 ** -0.25
     0.840896
     """
     if index > min(surface.size) * (1 + 1e-9):
