@@ -28,8 +28,3 @@ def test_periodic_grooves_are_named_where_seeds_fail(measured_file):
     assert wavelength == pytest.approx(15.0, rel=0.25)  # that of a whole number of waves in the window
     (warning,) = (one for one in fit.warnings if "contact pressure" in one)
     assert "periodic grooves" in warning
-
-
-def test_ridges_and_connected_valleys_of_oblique_grooves_are_named(measured_file):
-    names = {one.name for one in fitted(measured_file("oblique_grooves.x3p")).findings if one.lacking}
-    assert {"pressure", "valleys", "scratches"} <= names
