@@ -86,7 +86,7 @@ def fit_description(
     else:
         raise InputError(f"surface: got {type(surface).__name__}; give a Surface, such as read_surface() returns")
     steps = (
-        read_recipe(recipe)
+        read_recipe({**USUAL, **recipe})
         if isinstance(recipe, Mapping)
         else load_recipe(None if recipe is None else Path(recipe), usual=USUAL)
     )
