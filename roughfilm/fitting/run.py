@@ -200,7 +200,11 @@ def _warnings(plan: Plan, held: Mapping[str, Held], findings: tuple[Finding, ...
     failing = [f"{name}: {held_in_words(one)}" for name, one in held.items() if one.fails]
     if failing:
         reasons = [one.text for one in findings if one.lacking or one.name in ("drift", "short")]
-        why = "; why: " + "; ".join(reasons) if reasons else "; no test of phases, grooves, scratches or drift says why"
+        why = (
+            "; why: " + "; ".join(reasons)
+            if reasons
+            else "; tests of phases, grooves, scratches and drift found no reason"
+        )
         warnings.append(f"seeds do not scatter as the windows do ({'; '.join(failing)}){why}")
     return warnings
 

@@ -26,7 +26,7 @@ def fit_description(
     out: str | Path | None = None,
     progress: Progress = silent,
 ) -> Fit:
-    """Fit a random description to the windows of a surface, and judge it by windows that it has not seen.
+    """Fit a random description to the windows of a surface, and test it with windows that were not fitted.
 
     Windows of one size are prepared as periodic cells. The description is a random field with the mean spectrum of the
     windows; the powers of its octaves and its height distribution differ from seed to seed as they do between windows.

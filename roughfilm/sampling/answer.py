@@ -1,4 +1,4 @@
-"""What the rows of all windows say: scatter, trend with the size, windows needed, and warnings."""
+"""Scatter, trend with the size, number of windows needed, and warnings, from the rows of all windows."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -61,7 +61,7 @@ class WindowQuantity:
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What the windows of a surface say.
+    """The quantities of a surface over all of its windows.
 
     Attributes
     ----------

@@ -21,9 +21,9 @@ HEADS = ("quantity", "windows, median", "seeds, median", "seeds, 95 %", "held-ou
 def headline(fit: Fit) -> str:
     """The judgement in one sentence, without a full stop."""
     first, *others = fit.held.items()
-    parts = [f"{held.inside} of {held.count} for {name}" for name, held in others]
+    parts = [f"{held.inside} of {held.count} in {name}" for name, held in others]
     name, held = first
-    begin = f"{fit.name}: seeds hold {held.inside} of {held.count} held-out windows for {name}"
+    begin = f"{fit.name}: inside the intervals of seeds are {held.inside} of {held.count} held-out windows in {name}"
     return f"{begin}, {', '.join(parts[:-1])} and {parts[-1]}"
 
 

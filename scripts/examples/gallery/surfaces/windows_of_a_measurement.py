@@ -1,4 +1,4 @@
-"""What windows say of the whole surface
+"""The whole surface from several windows
 =====================================
 
 How well does one window describe a surface? The rms height is computed in windows of three sizes. Smaller windows
