@@ -148,7 +148,8 @@ def _of_measurement(
     largest = _largest(surface, count, found.shortest) if size is None else size
     shapes, warnings = _shapes(surface, largest, sizes)
     recipe = _with_one_edge(levelled, recipe, shapes[-1])
-    groups, done = [], 0
+    groups: list[Group] = []
+    done = 0
     for shape in shapes:
         places = window_places(surface.shape, shape, count)
         cells, of_cells = [], []
@@ -261,7 +262,8 @@ def _of_description(
     wanted = sorted({largest, *([largest / ratio for ratio in SIZE_RATIOS] if sizes is None else sizes)}, reverse=True)
     points = [_points(description, length / shorter) for length in wanted]
     warnings = []
-    groups, done = [], 0
+    groups: list[Group] = []
+    done = 0
     for number, (length, shape) in enumerate(zip(wanted, points, strict=True)):
         if min(shape) < MIN_PIXELS:
             if length == largest or sizes:
@@ -293,6 +295,11 @@ def _of_description(
         warnings.append(
             'amplitudes = "fixed" gives every seed the same spectrum, so that seeds scatter less than windows of one '
             'surface do; "random" lets them scatter as windows'
+        )
+    if entries["kind"] == "random_field" and any(group.cells[0].shape != description.points for group in groups):
+        warnings.append(
+            "a random_field scatters at any size as the windows to which it was fitted, not as windows of that size; "
+            "leave --size out and give --sizes none"
         )
     first = groups[0].cells[0]
     found = decay_lengths(autocorrelation(first), first.spacing)
