@@ -282,7 +282,6 @@ def _cell_warnings(record: Mapping[str, Any]) -> list[str]:
     if mismatch > MISMATCH_THRESHOLD:
         warnings.append(
             f"periodicity mismatch {mismatch:.2f}, above {MISMATCH_THRESHOLD}: ridges or steps end at the joint, which "
-            "throttles flow; choose another window (window.size without start selects one), or a larger "
-            "edges.width"
+            "throttles flow; take another or a larger window, or a larger edges.width"
         )
     return warnings
