@@ -112,7 +112,9 @@ def fit_windows(
     """Fit a random field to the windows of a measured surface, or to the seeds of a description, and judge it.
 
     Half of the windows are fitted and the other half is compared with the 95 % intervals of the seeds, then the other
-    way round, so that every window is held out once. The description that is returned is fitted to all windows.
+    way round, so that every window is held out once. The description that is returned is fitted to all windows. Windows
+    of a measurement count as independent unless they overlap, also along a lay: seeds stand for further windows of this
+    measurement, not for those of other ones.
 
     Parameters
     ----------
