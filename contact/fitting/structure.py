@@ -1,4 +1,4 @@
-"""What windows have beyond a spectrum and a height distribution: scratches, plateaus and periodic grooves."""
+"""Properties of windows beyond spectrum and height distribution: scratches, plateaus and periodic grooves."""
 
 import math
 from collections.abc import Sequence

@@ -96,13 +96,13 @@ def nesting_warnings(surface: Surface, s_index: float | None, l_index: float | N
     if s_index is not None and s_index < MIN_S_PIXELS * spacing * (1 - 1e-9):
         warnings.append(
             f"s_filter: the nesting index {s_index * 1e6:.4g} µm is below {MIN_S_PIXELS:.0f} pixels, "
-            f"{MIN_S_PIXELS * spacing * 1e6:.4g} µm, which ISO 25178-3 asks of optical instruments (5 pixels of "
+            f"{MIN_S_PIXELS * spacing * 1e6:.4g} µm, the least of ISO 25178-3 for optical instruments (5 pixels for "
             "stylus instruments); the pixels limit the short waves, not the filter; take a larger one"
         )
     if l_index is not None and l_index > side * (1 + 1e-9):
         warnings.append(
             f"l_filter: the nesting index {l_index * 1e6:.4g} µm is above the shorter side of the measurement, "
-            f"{side * 1e6:.4g} µm, which holds no such wave; take a smaller one, or leave the filter out"
+            f"{side * 1e6:.4g} µm, which contains no such wave; take a smaller one, or leave the filter out"
         )
     return tuple(warnings)
 

@@ -102,7 +102,8 @@ class Levelled:
     trusted : ``measured`` after clipping, with spikes and rims marked as invalid too, then the S- and the L-filter.
     filled : ``trusted`` with invalid points filled.
     record : data and changes of each step, as entries that JSON can hold.
-    warnings : sentences on units that may be wrong, and on nesting indices that pixels or sides do not support.
+    warnings : sentences on units that may be wrong, on nesting indices that pixels or sides do not support, and on many
+        outliers.
     """
 
     original: Surface
@@ -143,7 +144,11 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
         trusted=trusted,
         filled=filled,
         record=record,
-        warnings=(*implausible(trusted), *nesting_warnings(surface, recipe.s_filter, recipe.l_filter)),
+        warnings=(
+            *implausible(trusted),
+            *nesting_warnings(surface, recipe.s_filter, recipe.l_filter),
+            *_outlier_warnings(record),
+        ),
     )
 
 
@@ -190,7 +195,7 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
         joint=joint,
         surface=smoothed.with_heights(smoothed.heights, source=source),
         record=record,
-        warnings=(*levelled.warnings, *_warnings(record)),
+        warnings=(*levelled.warnings, *_cell_warnings(record)),
     )
 
 
@@ -250,13 +255,11 @@ def _points(shape: tuple[int, int], grid: Grid) -> tuple[int, int]:
     return nx, ny
 
 
-def _warnings(record: Mapping[str, Any]) -> list[str]:
+def _outlier_warnings(record: Mapping[str, Any]) -> list[str]:
+    """The warnings about spikes, rims and clipped points."""
     warnings = []
-    filled, mismatch = record["filled"]["in_window"], record["periodicity_mismatch"]["after"]
     outliers, points = record["outliers"], record["invalid"]["measured"]
     cut, spiked = outliers["above"] + outliers["below"], outliers["spikes"] + outliers["rims"]
-    if filled > INVALID_WARNING_FRACTION:
-        warnings.append(f"{100 * filled:.0f} % of the points were invalid and are filled in; measure again if you can")
     if spiked > CUT_WARNING_FRACTION * points:
         warnings.append(
             f"{100 * spiked / points:.1f} % of the points were taken for spikes or rims of invalid regions, and are "
@@ -267,10 +270,18 @@ def _warnings(record: Mapping[str, Any]) -> list[str]:
             f"{100 * cut / points:.1f} % of the points were cut as outliers; take fewer: outliers.bins=100, or "
             "outliers.points=0 to cut none"
         )
+    return warnings
+
+
+def _cell_warnings(record: Mapping[str, Any]) -> list[str]:
+    """The warnings about filled points in the window and the joint of the cell."""
+    warnings = []
+    filled, mismatch = record["filled"]["in_window"], record["periodicity_mismatch"]["after"]
+    if filled > INVALID_WARNING_FRACTION:
+        warnings.append(f"{100 * filled:.0f} % of the points were invalid and are filled in; measure again if you can")
     if mismatch > MISMATCH_THRESHOLD:
         warnings.append(
             f"periodicity mismatch {mismatch:.2f}, above {MISMATCH_THRESHOLD}: ridges or steps end at the joint, which "
-            "throttles flow; choose another window (window.size without start selects one), or a larger "
-            "edges.width"
+            "throttles flow; take another or a larger window, or a larger edges.width"
         )
     return warnings

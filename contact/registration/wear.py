@@ -38,18 +38,19 @@ class Wear:
     depth : difference less its level, shape (nx, ny), m, 0 where invalid; positive where material is gone.
     worn : mask of the points that differ from the unworn level by more than noise.
     volume : mean depth over the valid points, m: the net volume that is gone per area.
-    volume_uncertainty : half width of the interval that contains it in 95 of 100 cases, m.
+    volume_uncertainty : half width of the interval that contains it in 95 of 100 cases, m; None where the plane is
+        fitted to all points, so that the volume is zero by definition.
     largest : largest depth of the difference after a Gaussian filter of two pixels, m.
     largest_uncertainty : half width of its interval, m.
     noise : standard deviation of the difference over the unworn points, m.
     worn_fraction : part of the valid points that are worn and lower than before.
-    warnings : reasons why the level may be wrong.
+    warnings : reasons why the level or the volume may be wrong.
     """
 
     depth: Array
     worn: Mask
     volume: float
-    volume_uncertainty: float
+    volume_uncertainty: float | None
     largest: float
     largest_uncertainty: float
     noise: float
@@ -111,6 +112,12 @@ def wear_of(difference: Array, valid: Mask, *, unworn_only: bool = True) -> Wear
         if np.array_equal(kept, unworn):
             break
         unworn = kept
+    levelled = unworn_only and worn.any()
+    if not levelled:
+        cause = "no place differs by more than noise" if unworn_only else "the level is that of all points"
+        warnings.append(
+            f"{cause}, so that the worn volume is zero by definition; even wear of the whole field is not detected"
+        )
     depth = np.where(valid, difference - surface, 0.0)
     noise, variance = _noise(depth, unworn)
     chosen = unworn[valid]
@@ -124,8 +131,8 @@ def wear_of(difference: Array, valid: Mask, *, unworn_only: bool = True) -> Wear
     return Wear(
         depth=depth,
         worn=worn,
-        volume=float(filled.mean()),
-        volume_uncertainty=quantile * float(np.sqrt(variance * (influence**2).sum())),
+        volume=float(filled.mean()) if levelled else 0.0,
+        volume_uncertainty=quantile * float(np.sqrt(variance * (influence**2).sum())) if levelled else None,
         largest=float(fitted[deepest]),
         largest_uncertainty=3 * float(fitted[unworn].std()) + abs(float(fitted[deepest] - closer[deepest])),
         noise=noise,

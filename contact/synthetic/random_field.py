@@ -139,7 +139,7 @@ def random_field(
     seed : 0 to 2^63 - 1.
     spectrum : mean power of single waves. Between its wave numbers the decibels are interpolated; beyond them there is
         no power.
-    population : powers of the octaves and distribution of heights, and how they differ between windows. Octave k holds
+    population : powers of the octaves and distribution of heights, and how they differ between windows. Octave k has
         the waves whose wave number with respect to the shorter period is 2^k to 2^(k + 1); the first one also all
         longer waves, the last all shorter ones.
 

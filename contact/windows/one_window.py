@@ -1,4 +1,4 @@
-"""The scatter between windows that one window shows by itself, from its autocorrelation and height distribution."""
+"""An estimate of the scatter between windows from the autocorrelation and the heights of a single one."""
 
 import math
 
@@ -9,10 +9,10 @@ from roughfilm.contact.parameters.autocorrelation import DECAY_THRESHOLD, autoco
 from roughfilm.contact.surfaces.surface import Surface
 
 MAX_SKEWNESS = 1.0
-"""Largest size of the skewness at which windows scatter as one of them shows; beyond it, rare valleys or peaks do."""
+"""Largest size of the skewness with an estimate; beyond it, the scatter is that of rare valleys or peaks."""
 
 MAX_SCATTER = 0.2
-"""Largest scatter that one window shows to a factor of two; a smaller window does not contain the longest waves."""
+"""Largest scatter that is estimated to a factor of two; beyond it, the window does not contain the longest waves."""
 
 
 def rms_height_scatter(surface: Surface) -> float | None:

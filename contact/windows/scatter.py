@@ -1,4 +1,4 @@
-"""The scatter of a quantity between windows: what one window tells of another one, and of the mean of all."""
+"""The scatter of a quantity between windows: intervals for their mean and for one further window."""
 
 import math
 from collections.abc import Sequence

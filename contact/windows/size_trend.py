@@ -29,7 +29,7 @@ UNLIKELY = 0.01
 
 
 class Verdict(StrEnum):
-    """What the trend with the size of the window says of the whole surface."""
+    """Whether the value of the whole surface follows from the trend with the size of the window."""
 
     EXTRAPOLATED = "extrapolated"
     NOT_RESOLVED = "no effect of the size is resolved"
@@ -145,14 +145,14 @@ def size_trend(
         verdict = Verdict.TOO_STRONG
     else:
         verdict = Verdict.EXTRAPOLATED if abs(part) > of_part else Verdict.NOT_RESOLVED
-    told = verdict in (Verdict.EXTRAPOLATED, Verdict.NOT_RESOLVED)
+    known_limit = verdict in (Verdict.EXTRAPOLATED, Verdict.NOT_RESOLVED)
     return SizeTrend(
         sizes=lengths,
         means=values,
         uncertainties=widths,
         slope=slope,
-        limit=limit if told else None,
-        limit_uncertainty=of_limit + abs(limit - other) if told else None,
+        limit=limit if known_limit else None,
+        limit_uncertainty=of_limit + abs(limit - other) if known_limit else None,
         part=part,
         part_uncertainty=of_part,
         growth=growth,

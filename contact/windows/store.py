@@ -136,9 +136,11 @@ def read_windows(directory: Path) -> WindowSet:
         entries = from_json(read_bytes(path, MAX_BYTES, REMEDY), ListEntries)
     except ValueError as error:
         raise InputError(f"{path}: {error}; write the set again") from None
-    for name in entries.cells:
-        if Path(name).is_absolute() or ".." in Path(name).parts:
-            raise InputError(f"{path}: names the cell {name!r:.60} outside of its directory; write the set again")
+    for number, name in enumerate(entries.cells):
+        if name != cell_path(number):
+            raise InputError(
+                f"{path}: cells {number + 1}: got {name!r:.60}, not {cell_path(number)}; write the set again"
+            )
     try:
         return WindowSet(
             cells=tuple(load_surface(directory / name) for name in entries.cells),

@@ -56,7 +56,7 @@ def command(
     overwrite: Overwrite = False,
     as_json: AsJson = False,
 ) -> None:
-    """Fit a random description to the windows of a surface, and judge it by windows that it has not seen."""
+    """Fit a random description to the windows of a surface, and test it with windows that were not fitted."""
     refuse_same({"FILE": file, "--prepare": recipe, "--out": out, "--report": report})
     spent, steps = stopwatch(), load_recipe(recipe, set_ or (), None if recipe else USUAL)
     side = None if size is None else _si("--size", size, "m")

@@ -1,4 +1,4 @@
-"""roughfilm windows: the scatter of a surface between many windows or seeds, and what it says of the whole surface."""
+"""roughfilm windows: the scatter of a surface between many windows or seeds, and the value of the whole surface."""
 
 from collections.abc import Iterator, Mapping
 from contextlib import nullcontext
@@ -96,7 +96,7 @@ def command(
     recipe: Annotated[Path | None, typer.Option("--prepare", help="The recipe (TOML; default: the usual one).")] = None,
     set_: Annotated[
         list[str] | None,
-        typer.Option("--set", metavar="KEY=VALUE", help="Override a key of it, e.g. form=linear; repeatable."),
+        typer.Option("--set", metavar="KEY=VALUE", help="Override a key of it, e.g. form=tilt; repeatable."),
     ] = None,
     jobs: Jobs = None,
     executor: OnMachines = Where.LOCAL,
@@ -207,7 +207,7 @@ def _given(file: Path, recipe: Recipe, *, described: bool) -> Surface | Path:
 
 
 def _asked(plan: Plan, scene: Path | None, gap: str | None, sealing: bool, resolution: int, scratch: Path) -> Asked:
-    """What the options ask; InputError if they do not fit together."""
+    """The computation that the options request; InputError if they do not fit together."""
     if scene is None:
         if sealing:
             raise InputError("--sealing: needs --scene with a seal")

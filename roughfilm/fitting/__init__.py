@@ -1,1 +1,1 @@
-"""A description whose seeds scatter as the windows of a surface do, judged by windows that the fit has not seen."""
+"""A description whose seeds scatter as the windows of a surface do, and its test with windows that were not fitted."""

@@ -1,4 +1,4 @@
-"""The judgement of a description by windows that its fit has not seen."""
+"""The test of a description with windows that were not fitted."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -15,17 +15,17 @@ from roughfilm.contact.synthetic.description import RandomField, make
 from roughfilm.fitting.quantities import NAMES, quantities_of
 
 COVERAGE = 0.95
-"""Fraction of windows that an interval is meant to hold."""
+"""Fraction of windows that an interval is meant to contain."""
 
 CHANCE = 0.025
-"""Probability of so few windows in an interval of 95 %, below which it is said not to hold."""
+"""Probability of so few windows inside an interval of 95 %, below which they are too few."""
 
 Count = Callable[[str], None]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Held:
-    """How many held-out windows the seeds hold, by quantity.
+    """The held-out windows inside and outside of the interval of the seeds, for one quantity.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class Held:
 
     @property
     def fails(self) -> bool:
-        """Whether fewer windows are inside than 95 % by chance, or fewer than 90 %."""
+        """Whether fewer than 90 % of the windows are inside, and fewer than an interval of 95 % contains by chance."""
         rare = bool(scipy.stats.binom.cdf(self.inside, self.count, COVERAGE) < CHANCE)
         return rare and self.inside < 0.9 * self.count
 

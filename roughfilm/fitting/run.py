@@ -112,7 +112,9 @@ def fit_windows(
     """Fit a random field to the windows of a measured surface, or to the seeds of a description, and judge it.
 
     Half of the windows are fitted and the other half is compared with the 95 % intervals of the seeds, then the other
-    way round, so that every window is held out once. The description that is returned is fitted to all windows.
+    way round, so that every window is held out once. The description that is returned is fitted to all windows. Windows
+    of a measurement count as independent unless they overlap, also along a lay: seeds stand for further windows of this
+    measurement, not for those of other ones.
 
     Parameters
     ----------
@@ -200,7 +202,11 @@ def _warnings(plan: Plan, held: Mapping[str, Held], findings: tuple[Finding, ...
     failing = [f"{name}: {held_in_words(one)}" for name, one in held.items() if one.fails]
     if failing:
         reasons = [one.text for one in findings if one.lacking or one.name in ("drift", "short")]
-        why = "; why: " + "; ".join(reasons) if reasons else "; no test of phases, grooves, scratches or drift says why"
+        why = (
+            "; why: " + "; ".join(reasons)
+            if reasons
+            else "; tests of phases, grooves, scratches and drift found no reason"
+        )
         warnings.append(f"seeds do not scatter as the windows do ({'; '.join(failing)}){why}")
     return warnings
 

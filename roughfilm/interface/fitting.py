@@ -26,7 +26,7 @@ def fit_description(
     out: str | Path | None = None,
     progress: Progress = silent,
 ) -> Fit:
-    """Fit a random description to the windows of a surface, and judge it by windows that it has not seen.
+    """Fit a random description to the windows of a surface, and test it with windows that were not fitted.
 
     Windows of one size are prepared as periodic cells. The description is a random field with the mean spectrum of the
     windows; the powers of its octaves and its height distribution differ from seed to seed as they do between windows.
@@ -86,7 +86,7 @@ def fit_description(
     else:
         raise InputError(f"surface: got {type(surface).__name__}; give a Surface, such as read_surface() returns")
     steps = (
-        read_recipe(recipe)
+        read_recipe({**USUAL, **recipe})
         if isinstance(recipe, Mapping)
         else load_recipe(None if recipe is None else Path(recipe), usual=USUAL)
     )

@@ -31,7 +31,7 @@ def write_page(
     Parameters
     ----------
     plan : the windows.
-    answer : what they say.
+    answer : their scatter, trend and warnings.
     kind : kind of the scene; "" without one.
     entries : the object of ``--json``.
     heads : heads of the table of quantities.

@@ -1,7 +1,6 @@
-"""What the rows of all windows say: scatter, trend with the size, windows needed, and warnings."""
+"""Scatter, trend with the size, number of windows needed, and warnings, from the rows of all windows."""
 
 import math
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -17,6 +16,7 @@ from roughfilm.sampling.asked import Asked
 from roughfilm.sampling.plan import DECAY_LENGTHS, Group, Plan
 from roughfilm.sampling.quantities import Row
 from roughfilm.sampling.run import Rows
+from roughfilm.sampling.warnings import counted
 
 SIGNED = ("Ssk", "Rsk", "A12", "B2")
 """Quantities of either sign, whose scatter is not that of their logarithms."""
@@ -61,7 +61,7 @@ class WindowQuantity:
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What the windows of a surface say.
+    """The quantities of a surface over all of its windows.
 
     Attributes
     ----------
@@ -220,12 +220,4 @@ def _warnings(plan: Plan, rows: Rows, answer: Answer) -> Iterator[str]:
     for name, one in answer.quantities.items():
         if one.lacking > len(own) - sum(bool(row.quantities) for row in own):
             yield f"{one.lacking} of {answer.count} windows have no {name}, which is that of the others"
-    counts = Counter(_without_numbers(sentence) for row in own for sentence in set(row.warnings))
-    first = {_without_numbers(sentence): sentence for row in reversed(own) for sentence in row.warnings}
-    for key, count in counts.most_common():
-        yield f"{count} of {answer.count} windows: {first[key]}"
-
-
-def _without_numbers(sentence: str) -> str:
-    """A sentence without its numbers, so that those of different windows are counted together."""
-    return "".join(" " if one.isdigit() or one in ".-" else one for one in sentence)
+    yield from counted([row.warnings for row in own])

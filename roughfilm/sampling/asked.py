@@ -1,4 +1,4 @@
-"""What is asked of each window: parameters of its cell, or the quantities of a scene with the cell as its surface."""
+"""What is computed for each window: parameters of its cell, or quantities of a scene with the cell as surface."""
 
 import copy
 import hashlib
@@ -58,7 +58,7 @@ class Asked:
 
 
 def asked_of(scene: Path | Scene | Mapping[str, Any], surface: Path, **more: Any) -> Asked:
-    """What a scene asks, with the surface taken out of its entries.
+    """The computation of a scene, with the surface taken out of its entries.
 
     Parameters
     ----------

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
+from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, joint_mismatch
 from roughfilm.contact.windows.scatter import MIN_INDEPENDENT
 from roughfilm.contact.windows.store import cell_path, read_windows
 from roughfilm.rom.ladder.kind import Scene
@@ -27,22 +28,32 @@ class Cells:
     size : length of a cell along x and y, m.
     independent : effective number of independent windows.
     source : the surface of the windows, as entries for JSON.
+    mismatches : periodicity mismatch at the joint of each cell that was cut from a measurement.
     """
 
     paths: tuple[Path, ...]
     size: tuple[float, float]
     independent: float
     source: dict[str, Any]
+    mismatches: tuple[float, ...]
 
     @property
     def warnings(self) -> list[str]:
-        """The warning that too few windows leave the scatter unknown."""
-        if self.independent >= MIN_INDEPENDENT:
-            return []
-        return [
-            f"{len(self.paths)} windows are worth {self.independent:.3g} independent ones: too few for the scatter, "
-            "which is unknown; take three or more"
-        ]
+        """The warnings about windows that are too few for a scatter, and about joints that do not fit."""
+        warnings = []
+        if self.independent < MIN_INDEPENDENT:
+            warnings.append(
+                f"{len(self.paths)} windows are worth {self.independent:.3g} independent ones: too few for the "
+                "scatter, which is unknown; take three or more"
+            )
+        bad = [one for one in self.mismatches if one > MISMATCH_THRESHOLD]
+        if bad:
+            warnings.append(
+                f"{len(bad)} of {len(self.paths)} windows have a periodicity mismatch above {MISMATCH_THRESHOLD}, up "
+                f"to {max(bad):.2f}: ridges or steps end at the joint, which throttles flow; take other or larger "
+                "windows"
+            )
+        return warnings
 
     def entries(self) -> dict[str, Any]:
         """The entries for the provenance of a result."""
@@ -58,7 +69,13 @@ def read_cells(directory: Path) -> Cells:
     """The cells of the set of windows in a directory; InputError if it holds none, or they are damaged."""
     windows = read_windows(directory)
     paths = tuple(directory / cell_path(number) for number in range(len(windows.cells)))
-    return Cells(paths=paths, size=windows.cells[0].size, independent=windows.independent, source=dict(windows.source))
+    return Cells(
+        paths=paths,
+        size=windows.cells[0].size,
+        independent=windows.independent,
+        source=dict(windows.source),
+        mismatches=tuple(joint_mismatch(cell) for cell in windows.cells if "prepared_from" in cell.source),
+    )
 
 
 def scenes_of(

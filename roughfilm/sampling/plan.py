@@ -11,7 +11,7 @@ import numpy as np
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
-from roughfilm.contact.preparation.prepare import Levelled, cell_of, level
+from roughfilm.contact.preparation.prepare import Levelled, Prepared, cell_of, level
 from roughfilm.contact.preparation.recipe import Recipe, recipe_entries
 from roughfilm.contact.preparation.window import Window
 from roughfilm.contact.surfaces.surface import Surface
@@ -24,6 +24,7 @@ from roughfilm.contact.synthetic.description import (
 )
 from roughfilm.contact.windows.places import MAX_WINDOWS, independent_windows, window_places
 from roughfilm.rom.ladder.model import Progress
+from roughfilm.sampling.warnings import counted
 
 COUNT = 16
 """Default number of windows of each size."""
@@ -147,14 +148,19 @@ def _of_measurement(
     largest = _largest(surface, count, found.shortest) if size is None else size
     shapes, warnings = _shapes(surface, largest, sizes)
     recipe = _with_one_edge(levelled, recipe, shapes[-1])
-    groups, done = [], 0
+    groups: list[Group] = []
+    done = 0
     for shape in shapes:
         places = window_places(surface.shape, shape, count)
-        cells = []
+        cells, of_cells = [], []
         for window in places:
             progress(done / (count * len(shapes)), f"preparing window {done + 1} of {count * len(shapes)}")
-            cells.append(_cell(levelled, recipe, window))
+            prepared = _prepared(levelled, recipe, window)
+            cells.append(prepared.surface)
+            of_cells.append(prepared.warnings[len(levelled.warnings) :])
             done += 1
+        if not groups:
+            warnings += counted(of_cells)
         groups.append(
             Group(
                 size=min(n * step for n, step in zip(shape, surface.spacing, strict=True)),
@@ -191,9 +197,9 @@ def _with_one_edge(levelled: Levelled, recipe: Recipe, smallest: tuple[int, int]
     return recipe.model_copy(update={"edges": edges})
 
 
-def _cell(levelled: Levelled, recipe: Recipe, window: Window) -> Surface:
+def _prepared(levelled: Levelled, recipe: Recipe, window: Window) -> Prepared:
     try:
-        return cell_of(levelled, recipe, window).surface
+        return cell_of(levelled, recipe, window)
     except InputError as error:
         (i, j), (nx, ny) = window.start, window.shape
         raise InputError(f"window of {nx} x {ny} pixels at pixel {i}, {j}: {error}") from None
@@ -256,7 +262,8 @@ def _of_description(
     wanted = sorted({largest, *([largest / ratio for ratio in SIZE_RATIOS] if sizes is None else sizes)}, reverse=True)
     points = [_points(description, length / shorter) for length in wanted]
     warnings = []
-    groups, done = [], 0
+    groups: list[Group] = []
+    done = 0
     for number, (length, shape) in enumerate(zip(wanted, points, strict=True)):
         if min(shape) < MIN_PIXELS:
             if length == largest or sizes:
@@ -288,6 +295,11 @@ def _of_description(
         warnings.append(
             'amplitudes = "fixed" gives every seed the same spectrum, so that seeds scatter less than windows of one '
             'surface do; "random" lets them scatter as windows'
+        )
+    if entries["kind"] == "random_field" and any(group.cells[0].shape != description.points for group in groups):
+        warnings.append(
+            "a random_field scatters at any size as the windows to which it was fitted, not as windows of that size; "
+            "leave --size out and give --sizes none"
         )
     first = groups[0].cells[0]
     found = decay_lengths(autocorrelation(first), first.spacing)

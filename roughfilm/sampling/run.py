@@ -126,8 +126,7 @@ def _computed(
             yield chunk
 
     def send(chunk: list[int], _again: bool) -> Future[list[Row]]:
-        bare = [Surface(heights=cells[one].heights, spacing=cells[one].spacing, periodic=True) for one in chunk]
-        return workers.executor().submit(rows_of, bare, asked, origin)
+        return workers.executor().submit(rows_of, [cells[one] for one in chunk], asked, origin)
 
     no_row: Callable[[BaseException], Row] = lambda error: Row(quantities={}, failure=lost(error))  # noqa: E731
     return answered(chunks(), send, no_row, workers)

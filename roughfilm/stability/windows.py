@@ -1,4 +1,4 @@
-"""The map of what few windows say of a surface: how often their intervals contain the truth of a known ensemble."""
+"""The map of intervals from few windows: how often they contain the truth of a known ensemble."""
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache, partial
@@ -254,7 +254,7 @@ def _in_numbers(spots: Sequence[Spot]) -> str:
 
 WINDOWS = StabilityMap(
     name="windows",
-    title="What few windows say of a surface",
+    title="Intervals from few windows of a surface",
     axes="Gaussian surfaces of known spectrum. Windows far apart, joined and pressed, from 1 to 30 correlation lengths "
     "λ (at which the autocorrelation is 0.2) wide, 2 to 50 of them; with rare scratches; windows of one measurement, "
     "four windows wide, also along a lay, overlapping, and with a roll-off beyond them; and windows of L, L/2 and L/4 "

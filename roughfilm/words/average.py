@@ -8,7 +8,7 @@ HEADS = ("±, numerical", "±, windows", "one window")
 
 
 MOST = 10.0
-"""Uncertainty over the value above which it is written as unknown: the value says nothing then."""
+"""Uncertainty over the value above which it is written as unknown."""
 
 
 def rounded(uncertainty: float | None, value: float) -> str:

@@ -57,4 +57,5 @@ def answer(combined: Combined, names: Sequence[str]) -> str:
     common = share(combined.quantities["common_fraction"].value)
     if combined.operation == "sum":
         return f"{names[0]} on {names[1]}: composite Sq {value} {unit} over {common} of the smaller surface"
-    return f"{names[0]} to {names[1]}: worn volume per area {value} ± {uncertainty} {unit}"
+    known = "" if uncertainty == "unknown" else f" ± {uncertainty}"
+    return f"{names[0]} to {names[1]}: worn volume per area {value}{known} {unit}"

@@ -21,9 +21,9 @@ HEADS = ("quantity", "windows, median", "seeds, median", "seeds, 95 %", "held-ou
 def headline(fit: Fit) -> str:
     """The judgement in one sentence, without a full stop."""
     first, *others = fit.held.items()
-    parts = [f"{held.inside} of {held.count} for {name}" for name, held in others]
+    parts = [f"{held.inside} of {held.count} in {name}" for name, held in others]
     name, held = first
-    begin = f"{fit.name}: seeds hold {held.inside} of {held.count} held-out windows for {name}"
+    begin = f"{fit.name}: inside the intervals of seeds are {held.inside} of {held.count} held-out windows in {name}"
     return f"{begin}, {', '.join(parts[:-1])} and {parts[-1]}"
 
 
@@ -79,7 +79,7 @@ def notes(fit: Fit) -> tuple[str, ...]:
     """The notes at the beginning of the file of a description."""
     return (
         f"Surface: {fit.name}; {len(fit.windows)} windows of {length(fit.group.size)}, worth "
-        f"{fit.group.independent:.3g} independent ones.",
+        f"{fit.description.population.windows:.3g} independent ones.",
         f"{headline(fit)}.",
         *(f"Lacks: {one.text}." for one in fit.findings if one.lacking),
         "Another seed is another window; see roughfilm.contact.synthetic.random_field.",
@@ -92,7 +92,7 @@ def entries_of(fit: Fit) -> dict[str, Any]:
         {
             "surface": fit.name,
             "size": fit.group.size,
-            "independent": fit.group.independent,
+            "independent": fit.description.population.windows,
             "area": fit.area,
             "load": fit.load,
             "held": {

@@ -31,7 +31,7 @@ GROUPS = {
         "surface": "Read a surface, prepare it as a periodic cell, and show it before and after.",
         "windows": "Take many windows of a surface, or seeds: their scatter, and how many are needed.",
         "combine": "Subtract two measurements of one place, which shows wear, or add two walls that face each other.",
-        "fit": "Fit a random description to the windows of a surface, and judge it by windows that it has not seen.",
+        "fit": "Fit a random description to the windows of a surface, and test it with windows that were not fitted.",
         "contact": "Press a rough surface against a flat plane: area, gap and pressures by load.",
         "factors": "Compute pressure, shear and friction flow factors of a rough surface.",
     },

@@ -136,12 +136,12 @@ def _entries(seal: Seal, answer: SealOfWindows, columns: dict[str, Column], cell
         },
         "provenance": origin(SOURCES, [*cells.warnings, *_warnings(seal, answer)], scene=scene_entries(seal)),
     }
-    held: dict[str, Any] = finite_entries(entries)
-    return held
+    finite: dict[str, Any] = finite_entries(entries)
+    return finite
 
 
 def _warnings(seal: Seal, answer: SealOfWindows) -> list[str]:
-    """Warnings of windows that never seal, of windows in series, and of lifted surfaces."""
+    """Warnings of windows that never seal, and of lifted surfaces."""
     warnings = []
     for name, sealing in answer.sealing.items():
         if sealing.sealing < 1:

@@ -63,11 +63,12 @@ def test_two_measurements_of_one_place_differ_by_noise_alone():
     rng = np.random.default_rng(961)
     heights, _ = rough(rng)
     pair = [Surface(heights=1e-6 * (heights + 0.1 * rng.normal(size=(N, N))), spacing=(1e-6, 1e-6)) for _ in range(2)]
-    found = difference(*pair).quantities
+    combined = difference(*pair)
+    found = combined.quantities
     assert found["noise"].value == pytest.approx(0.1e-6 * np.sqrt(2), rel=0.05)
-    assert found["worn_fraction"].value < 0.01
-    assert found["worn_volume_per_area"].uncertainty is not None
-    assert abs(found["worn_volume_per_area"].value) <= 2 * found["worn_volume_per_area"].uncertainty + 1e-12
+    assert found["worn_fraction"].value == 0
+    assert (found["worn_volume_per_area"].value, found["worn_volume_per_area"].uncertainty) == (0, None)
+    assert combined.warnings[-1].startswith("no place differs by more than noise")
 
 
 def test_a_rotation_that_spoils_the_difference_warns():
@@ -89,8 +90,11 @@ def test_a_rotation_that_spoils_the_difference_warns():
 
 def test_a_plane_through_all_points_hides_part_of_a_wide_scar():
     (before, after), *_ = worn_pair(970)
-    unworn, every = (difference(before, after, level=level).quantities for level in ("unworn", "all"))
-    assert abs(every["worn_volume_per_area"].value) < 1e-12
+    unworn, every = (difference(before, after, level=level) for level in ("unworn", "all"))
+    assert "the level is that of all points" in every.warnings[-1]
+    assert not any("zero by definition" in one for one in unworn.warnings)
+    unworn, every = unworn.quantities, every.quantities
+    assert (every["worn_volume_per_area"].value, every["worn_volume_per_area"].uncertainty) == (0, None)
     assert every["largest_depth"].value < unworn["largest_depth"].value
 
 

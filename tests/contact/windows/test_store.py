@@ -40,7 +40,10 @@ def test_a_damaged_list_is_refused(written, tmp_path):
     with pytest.raises(InputError, match=r"windows.json: size: .*; write the set again$"):
         read_windows(directory)
     path.write_text(json.dumps(entries | {"cells": ["../other.h5"]}))
-    with pytest.raises(InputError, match="outside of its directory"):
+    with pytest.raises(InputError, match=r"cells 1: got '../other.h5', not cells/0001.h5; write the set again"):
+        read_windows(directory)
+    path.write_text(json.dumps(entries | {"cells": entries["cells"][1:], "windows": entries["windows"][1:]}))
+    with pytest.raises(InputError, match=r"cells 1: got 'cells/0002.h5'"):
         read_windows(directory)
     path.write_text(json.dumps(entries | {"cells": entries["cells"][:2]}))
     with pytest.raises(InputError, match="got 3 places of 2 cells"):

@@ -46,6 +46,13 @@ def test_the_json_counts_the_held_out_windows(place):
     assert entries["description"]["kind"] == "random_field"
 
 
+def test_windows_of_another_size_than_that_of_the_fit_are_warned_of(place):
+    path = place[0] / "fitted.toml"
+    assert not any("at any size" in one for one in rf.windows(path, count=3, sizes=[]).warnings)
+    larger = rf.windows(path, count=3, size=128e-6, sizes=[])
+    assert any("scatters at any size as the windows to which it was fitted" in one for one in larger.warnings)
+
+
 def test_the_file_is_a_surface_for_other_commands(place):
     path = place[0] / "fitted.toml"
     assert path.read_text(encoding="utf-8").startswith(
@@ -63,7 +70,7 @@ def test_the_file_is_a_surface_for_other_commands(place):
 
 def test_the_page_answers_first(place):
     text = (place[0] / "page.html").read_text(encoding="utf-8")
-    assert "held-out windows for contact pressure," in text
+    assert "held-out windows in contact pressure," in text
     assert text.index("How sure:") < text.index("Power spectrum") < text.index("Scatter")
 
 

@@ -1,4 +1,4 @@
-"""Seeds of a fitted description hold the windows that the fit has not seen, where the windows are random fields."""
+"""Seeds of a fitted description scatter as windows that were not fitted, where the windows are random fields."""
 
 import numpy as np
 import pytest

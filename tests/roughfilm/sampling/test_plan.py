@@ -37,7 +37,14 @@ def test_windows_keep_the_pixels_and_come_in_three_sizes(measured):
     assert [group.cells[0].shape for group in plan.groups] == [(72, 64), (32, 32)]
     assert [cell.spacing for group in plan.groups for cell in group.cells] == [measured.spacing] * 12
     assert plan.groups[0].size == pytest.approx(64 * measured.spacing[1])
-    assert plan.warnings == ("windows of 35 µm are left out: fewer than 32 pixels along a side",)
+    assert plan.warnings[-1] == "windows of 35 µm are left out: fewer than 32 pixels along a side"
+
+
+def test_warnings_of_the_measurement_stand_once_and_those_of_windows_are_counted(measured):
+    kept = plan_of(measured, sizes=[], set_=["outliers.points=0"])
+    assert kept.warnings == ()
+    plan = plan_of(measured, sizes=[], set_=["edges.direction=none"])
+    assert [one.split(" of ", 1)[1][:20] for one in plan.warnings] == ["the points were cut ", "6 windows: periodici"]
 
 
 def test_a_window_is_prepared_as_the_recipe_prepares_it(measured):

@@ -536,7 +536,7 @@ def test_seeds_of_a_description_hold_the_windows_of_a_random_surface() -> None:
     assert min(values["inside"].values()) >= 13
     windows, seeds = (np.array(values["skewness"][name]) for name in ("windows", "seeds"))
     assert abs(windows.mean() - seeds.mean()) < 3.3 * np.hypot(windows.std(), seeds.std()) / 4
-    assert values["fit"].warnings == ()
+    assert not any("seeds do not scatter" in one for one in values["fit"].warnings)
 
 
 # The ladder

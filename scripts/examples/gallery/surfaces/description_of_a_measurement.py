@@ -3,7 +3,7 @@
 
 Which surfaces are as likely as the one that was measured? `fit_description` fits a random field to windows of a
 measurement: their mean spectrum, their heights, and how both differ between windows. Half of the windows are held out:
-the seeds should hold 95 of 100 of them. Any seed is a further surface.
+95 of 100 of them should lie within the interval of the seeds. Any seed is a further surface.
 """
 
 import tempfile

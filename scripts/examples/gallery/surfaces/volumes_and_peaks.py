@@ -3,7 +3,8 @@
 
 What do the volumes, slopes and peaks of ISO 25178-2 measure? A surface of crossed waves, cos(qx) cos(py), has closed
 forms: Sdq² is (q² + p²) H²/4, the peaks are 2 to a period, and their curvature Spc is H (q² + p²)/2. The marks are the
-peaks that Spd counts; the areas are the volumes that the peaks bring (Vmp) and that the valleys hold (Vvv).
+peaks that Spd counts; the areas are the volumes of the material of the peaks (Vmp) and of the void of the valleys
+(Vvv).
 """
 
 import matplotlib.pyplot as plt

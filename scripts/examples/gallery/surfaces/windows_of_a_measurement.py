@@ -1,5 +1,5 @@
-"""What windows say of the whole surface
-=====================================
+"""The whole surface from several windows
+======================================
 
 How well does one window describe a surface? The rms height is computed in windows of three sizes. Smaller windows
 scatter more, and they lack waves that are longer than they are. The mean over the inverse of the side leads to the
