@@ -77,7 +77,7 @@ def faults_of(
     given: list[Mapping[str, Any]] = sorted(
         map(dict, error.errors(include_url=False)), key=lambda fault: fault["type"] != "extra_forbidden"
     )
-    given = [part for one in given for part in _parts(one)]
+    given = [part for one in given if not _short_by_others(one, given) for part in _parts(one)]
     faults = [_fault(one, unknown, tuple(locate(one["loc"]))) for one in given]
     meant = {(*fault.location[:-1], fault.replaced) for fault in faults if fault.replaced}
     missing = [one["type"] == "missing" for one in given]
@@ -93,6 +93,14 @@ def _parts(given: Mapping[str, Any]) -> list[Mapping[str, Any]]:
     if given["type"] != "value_error":
         return [given]
     return [{**given, "ctx": {"error": line}} for line in str(given["ctx"]["error"]).splitlines()]
+
+
+def _short_by_others(given: Mapping[str, Any], others: Sequence[Mapping[str, Any]]) -> bool:
+    """Whether a list is too short only because pydantic does not count its items with faults of their own."""
+    place = given["loc"]
+    return given["type"] == "too_short" and any(
+        len(one["loc"]) > len(place) and one["loc"][: len(place)] == place for one in others
+    )
 
 
 def _same(fault: Fault, path: Location) -> tuple[Any, ...]:
@@ -126,6 +134,10 @@ def _fault(given: Mapping[str, Any], unknown: Callable[[Location], tuple[str, st
             text = f"got {got}; write it without quotes"
         case "tuple_type":
             text = f"got {got}; write a list in brackets"
+        case "too_short":
+            text = f"got {got}; write {given['ctx']['min_length']} values or more"
+        case "too_long":
+            text = f"got {got}; write at most {given['ctx']['max_length']} values"
         case "model_type" | "model_attributes_type" | "dict_type":
             text = f"got {got}; write a table, with a line for each of its keys"
         case "value_error":

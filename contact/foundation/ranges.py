@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from numbers import Real
+from numbers import Integral, Real
 from typing import Any
 
 from roughfilm.contact.foundation.errors import InputError
@@ -90,3 +90,23 @@ def in_range(place: str, value: object, unit: str, *, zero: bool = False) -> flo
         return float(number)
     allowed = f"{'0 or ' if zero else ''}{RANGES[unit]} {unit}".removesuffix(" 1")
     raise InputError(f"{place}: got {value!r:.60}; it must be {allowed}, check the unit")
+
+
+def whole_in_range(place: str, value: object, least: int, most: int) -> int:
+    """The whole number, also one of NumPy, if least <= value <= most.
+
+    Raises
+    ------
+    InputError
+        In one line, for anything else.
+
+    Examples
+    --------
+    >>> whole_in_range("windows", 2.5, 1, 10)
+    Traceback (most recent call last):
+    ...
+    roughfilm.contact.foundation.errors.InputError: windows: got 2.5; give a whole number from 1 to 10
+    """
+    if isinstance(value, Integral) and not isinstance(value, bool) and least <= int(value) <= most:
+        return int(value)
+    raise InputError(f"{place}: got {value!r:.60}; give a whole number from {least} to {most}")

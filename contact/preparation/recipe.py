@@ -65,7 +65,7 @@ class Edges(Part):
     """
 
     method: Literal["seams", "blended"] = "seams"
-    direction: Direction | Literal["auto"] = "auto"
+    direction: Literal[Direction, "auto"] = "auto"
     width: Length | None = None
 
 
@@ -140,12 +140,17 @@ def read_recipe(entries: Mapping[str, Any]) -> Recipe:
     try:
         return Recipe.model_validate(entries)
     except ValidationError as error:
-        raise InputError(in_lines(faults_of(error, _unknown), "recipe")) from None
+        raise InputError(in_lines(faults_of(error, _unknown, _named), "recipe")) from None
 
 
 def recipe_entries(recipe: Recipe) -> dict[str, Any]:
     """The complete recipe as nested entries, with defaults, units as text; `read_recipe` reads it back unchanged."""
     return recipe.model_dump(mode="json", exclude_none=True)
+
+
+def _named(location: Location) -> Location:
+    """The keys and indices of a location, without the types that pydantic tries for one entry, such as tuple[int]."""
+    return [part for part in location if not (isinstance(part, str) and "[" in part)]
 
 
 def _unknown(location: Location) -> tuple[str, str]:

@@ -12,6 +12,7 @@ from rich.table import Table
 from roughfilm.contact.foundation.checked_hdf5 import marked
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import write_json
+from roughfilm.contact.foundation.ranges import whole_in_range
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.writing.kinds import JSON, PAGE
 from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
@@ -107,8 +108,7 @@ def command(
     pieces = None if bearing.wide else bearing.pieces
     area = None if pieces is None else pieces * bearing.nominal_area
     pressures = (own,) if loads is None and own is not None else loads_of(loads or LOADS, area)
-    if not MIN_CELLS <= resolution <= MAX_CELLS:
-        raise InputError(f"--resolution: got {resolution}; it must be {MIN_CELLS} to {MAX_CELLS} cells along a side")
+    resolution = whole_in_range("--resolution", resolution, MIN_CELLS, MAX_CELLS)
     if table is not None and bearing.asperities is None:
         raise InputError(f"--table: got {table}, but the scene has no [asperities]; add them or leave the table out")
     if table is not None and cells is not None:

@@ -11,6 +11,7 @@ from rich.table import Table
 from roughfilm.batch.cluster import dask
 from roughfilm.batch.executors import local
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.ranges import in_range, whole_in_range
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.foundation.writing.kinds import PAGE, entries_from
@@ -20,6 +21,7 @@ from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.windows.store import FIRST_KEY, LIST, WindowSet, save_windows, stored_list
+from roughfilm.rom.bearing.mixed.stribeck import MAX_CELLS, MIN_CELLS
 from roughfilm.rom.studies.table import TABLE, table_beginning, write_csv, write_hdf5
 from roughfilm.sampling.answer import answer_of
 from roughfilm.sampling.asked import Asked, asked_of
@@ -108,6 +110,7 @@ def command(
     """Take many windows of a surface, or seeds: their scatter, and how many are needed."""
     spent, processes = stopwatch(), process_count(jobs)
     refuse_same({"FILE": file, "--prepare": recipe, "--scene": scene, "--out": out})
+    resolution = whole_in_range("--resolution", resolution, MIN_CELLS, MAX_CELLS)
     allowed, steps = _tolerance(tolerance), load_recipe(recipe, set_ or (), None if recipe else USUAL)
     limit = waiting_time(executor, scheduler, tls, wait)
     with (
@@ -211,7 +214,7 @@ def _asked(plan: Plan, scene: Path | None, gap: str | None, sealing: bool, resol
     if scene is None:
         if sealing:
             raise InputError("--sealing: needs --scene with a seal")
-        return Asked(gap=None if gap is None else _length("--gap", gap))
+        return Asked(gap=None if gap is None else in_range("--gap", _length("--gap", gap), "m"))
     if gap is not None:
         raise InputError(f"--gap: got {gap} with --scene, whose load determines the gap; leave one out")
     first = scratch / "first.h5"

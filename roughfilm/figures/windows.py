@@ -88,8 +88,7 @@ def values(shown: Shown) -> str:
             axes.plot(found.values / scale.factor, jitter, "o", color=DOTS, markersize=4, alpha=0.6)
             _draw_mean(axes, found, scale, number, upright=False)
         axes.set_yticks(range(len(one.by_size)), [f"{1e6 * size:.4g}" for size in one.by_size])
-        low, high = largest.interval or (0.0, 0.0)
-        if 0 < MOST_LINEAR * low < high:
+        if _spans(*(largest.interval or (0.0, 0.0))):
             axes.set_xscale("log")
             plain_logarithmic(axes.xaxis)
         axes.set(xlabel=scale.label(title), ylabel="window, µm", ylim=(len(one.by_size) - 0.5, -0.5))
@@ -117,10 +116,19 @@ def over_size(shown: Shown) -> str:
                 capsize=4,
                 label="whole surface",
             )
+        ends_of_means = [end for found in one.by_size.values() for end in found.mean_interval or (found.mean,)]
+        if trend.limit is None and _spans(min(ends_of_means), max(ends_of_means)):
+            axes.set_yscale("log")
+            plain_logarithmic(axes.yaxis)
         axes.set(xlim=(-0.04 * max(inverse), None), xlabel="1/side of the window, 1/mm", ylabel=scale.label(title))
     _hide_rest(panels, len(shown))
     _legend(figure, panels)
     return svg(figure)
+
+
+def _spans(low: float, high: float) -> bool:
+    """Whether an axis from a number to another is logarithmic."""
+    return 0 < MOST_LINEAR * low < high
 
 
 def _draw_mean(axes: Axes, found: Scatter, scale: Scale, place: float, *, upright: bool) -> None:
@@ -156,8 +164,14 @@ def over_number(shown: Shown) -> str:
             last = np.flatnonzero(known)[-1]
             bottom = min(*means, means[-1] - 2.5 * (means[-1] - low[last]))
             top = max(*means, means[-1] + 2.5 * (high[last] - means[-1]))
-            room = 0.05 * (top - bottom or 1.0)
-            axes.set_ylim(max(bottom - room, 0.0) if found.positive else bottom - room, top + room)
+            if found.positive and _spans(low[last], high[last]):
+                least, most = (min(*means, low[last]), max(*means, high[last]))
+                axes.set_yscale("log")
+                axes.set_ylim(least / MOST_LINEAR, most * MOST_LINEAR)
+                plain_logarithmic(axes.yaxis)
+            else:
+                room = 0.05 * (top - bottom or 1.0)
+                axes.set_ylim(max(bottom - room, 0.0) if found.positive else bottom - room, top + room)
         axes.set(xlabel="number of windows", ylabel=scale.label(title))
     _hide_rest(panels, len(shown))
     _legend(figure, panels)

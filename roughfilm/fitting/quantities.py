@@ -1,6 +1,7 @@
 """Contact pressure, mean gap and leakage of cells, by which seeds of a description are compared with windows."""
 
 from collections.abc import Sequence
+from numbers import Real
 
 import numpy as np
 
@@ -45,8 +46,8 @@ def quantities_of(cell: Surface, load: float) -> Array:
 
 def refuse_area(area: float) -> None:
     """Raise InputError unless a contact area fraction is 0.1 % to 90 %."""
-    if not 0.001 <= area <= 0.9:
-        raise InputError(f"area: got {area!r}; give a fraction of 0.1 % to 90 %")
+    if isinstance(area, bool) or not isinstance(area, Real) or not 0.001 <= area <= 0.9:
+        raise InputError(f"area: got {area!r:.60}; give a fraction of 0.1 % to 90 %")
 
 
 def load_at_area(cells: Sequence[Surface], area: float) -> float:

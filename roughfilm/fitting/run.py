@@ -10,11 +10,12 @@ import numpy as np
 from roughfilm.contact.fitting.fit import fit_random_field
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.brief import brief
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.foundation.ranges import whole_in_range
 from roughfilm.contact.preparation.recipe import Recipe
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import RandomField, make, read_description
-from roughfilm.contact.windows.places import independent_windows
+from roughfilm.contact.windows.places import MAX_WINDOWS, independent_windows
 from roughfilm.fitting.findings import Finding, findings_of, structure_of
 from roughfilm.fitting.judge import Held, halves, held_out, seeds_of
 from roughfilm.fitting.quantities import load_at_area, quantities_of, refuse_area
@@ -29,6 +30,9 @@ SEEDS = 200
 
 AREA = 0.1
 """Default mean contact area fraction at which windows and seeds are compared."""
+
+MIN_SEEDS, MAX_SEEDS = 40, 10_000
+"""Smallest number of seeds, of which a 95 % interval is known, and largest one."""
 
 MIN_COUNT = 16
 """Smallest number of windows: each half then has eight."""
@@ -124,7 +128,7 @@ def fit_windows(
     size : side of the windows, m; by default that of the largest squares of which ``count`` fit without overlap, but at
         least 32 pixels.
     area : mean contact area fraction at which windows and seeds are compared.
-    seeds : number of seeds of each fit, 40 or more.
+    seeds : number of seeds of each fit, 40 to 10 000.
     name : name for people.
     progress : called with the done fraction and a few words.
 
@@ -135,10 +139,8 @@ def fit_windows(
     ConvergenceError
         If no window has a contact or a flow.
     """
-    if count < MIN_COUNT:
-        raise InputError(f"windows: got {count}; a fit and its judgement need {MIN_COUNT} or more")
-    if seeds < 40:
-        raise InputError(f"seeds: got {seeds}; a 95 % interval needs 40 or more")
+    count = whole_in_range("windows", count, MIN_COUNT, MAX_WINDOWS)
+    seeds = whole_in_range("seeds", seeds, MIN_SEEDS, MAX_SEEDS)
     refuse_area(area)
     if size is None and isinstance(given, Surface):
         size = side_of_windows(given, count)

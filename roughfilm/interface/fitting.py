@@ -7,11 +7,10 @@ from pathlib import Path
 from roughfilm.contact.fitting.text import DESCRIPTION, description_text
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
-from roughfilm.contact.preparation.recipe import load_recipe, read_recipe
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.fitting.run import AREA, COUNT, SEEDS, Fit, fit_windows
+from roughfilm.interface.recipes import steps_of_windows
 from roughfilm.rom.ladder.model import Progress, silent
-from roughfilm.sampling.plan import USUAL
 from roughfilm.words.fit import notes
 
 
@@ -39,7 +38,7 @@ def fit_description(
     windows : number of windows, 16 or more.
     size : side of the windows, m; by default that of the largest squares that fit without overlap.
     area : mean contact area fraction at which windows and seeds are compared, 0.001 to 0.9.
-    seeds : number of seeds of each of the three fits, 40 or more.
+    seeds : number of seeds of each of the three fits, 40 to 10 000.
     recipe : TOML file or nested entries of the preparation of each window; by default they keep their pixels.
     out : TOML file for the description, which any command takes as a surface.
     progress : called with the done fraction and a few words.
@@ -85,11 +84,9 @@ def fit_description(
         given = surface
     else:
         raise InputError(f"surface: got {type(surface).__name__}; give a Surface, such as read_surface() returns")
-    steps = (
-        read_recipe({**USUAL, **recipe})
-        if isinstance(recipe, Mapping)
-        else load_recipe(None if recipe is None else Path(recipe), usual=USUAL)
-    )
+    steps = steps_of_windows(recipe)
+    if not isinstance(out, str | os.PathLike | None):
+        raise InputError(f"out: got {type(out).__name__}; give the name of a file")
     name = given.name if isinstance(given, Path) else str(given.source.get("file", "surface"))
     fit = fit_windows(given, steps, count=windows, size=size, area=area, seeds=seeds, name=name, progress=progress)
     if out is not None:

@@ -21,13 +21,14 @@ from roughfilm.contact.mechanics.solid import Solid, composite_modulus
 from roughfilm.contact.parameters import roughness_parameters
 from roughfilm.contact.parameters.profile import SECTIONS
 from roughfilm.contact.preparation import prepare as preparation
-from roughfilm.contact.preparation.recipe import AS_IT_IS, load_recipe, read_recipe
+from roughfilm.contact.preparation.recipe import AS_IT_IS
 from roughfilm.contact.registration import combine as combination
 from roughfilm.contact.surfaces import files
 from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, Surface
 from roughfilm.contact.synthetic.description import make, read_description
 from roughfilm.interface.cells import CellSet, checked_windows
+from roughfilm.interface.recipes import steps_of
 from roughfilm.rom.homogenization.table.windows import factors_at, point_quantities
 from roughfilm.rom.ladder.model import Progress, silent
 
@@ -171,10 +172,7 @@ def prepare(surface: Surface, recipe: str | Path | Mapping[str, Any] | None = No
     """
     if not isinstance(surface, Surface):
         raise InputError(f"surface: got {type(surface).__name__}; give a Surface, such as read_surface() returns")
-    if isinstance(recipe, Mapping):
-        return preparation.prepare(surface, read_recipe(recipe))
-    usual = AS_IT_IS if surface.periodic and recipe is None else None
-    return preparation.prepare(surface, load_recipe(None if recipe is None else Path(recipe), usual=usual))
+    return preparation.prepare(surface, steps_of(recipe, AS_IT_IS if surface.periodic else None))
 
 
 def combine(
@@ -246,11 +244,7 @@ def combine(
         raise InputError(f"operation: got {operation!r:.60}; it must be 'difference' or 'sum'")
     if level not in get_args(combination.Level):
         raise InputError(f"level: got {level!r:.60}; it must be 'unworn' or 'all'")
-    if isinstance(recipe, Mapping):
-        steps = read_recipe(recipe)
-    else:
-        usual = combination.usual_entries(first, second)
-        steps = load_recipe(None if recipe is None else Path(recipe), usual=usual)
+    steps = steps_of(recipe, combination.usual_entries(first, second))
     place = _place("registered" if shift is None and operation == "difference" else shift)
     with finite_arithmetic("combine"):
         if operation == "sum":

@@ -2,22 +2,27 @@
 
 import os
 from collections.abc import Mapping, Sequence
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
 from roughfilm.batch.executors import local
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.ranges import in_range, whole_in_range
 from roughfilm.contact.foundation.writing.scratch import scratch_directory
-from roughfilm.contact.preparation.recipe import load_recipe, read_recipe
 from roughfilm.contact.surfaces import files
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.interface.recipes import steps_of_windows
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.sampling.answer import Answer, answer_of
 from roughfilm.sampling.asked import Asked, asked_of
-from roughfilm.sampling.plan import COUNT, USUAL, planned
+from roughfilm.sampling.plan import COUNT, planned
 from roughfilm.sampling.run import examined
+
+MOST_PROCESSES = 1024
+"""Largest number of processes."""
 
 
 def windows(
@@ -88,15 +93,13 @@ def windows(
     """
     if not isinstance(surface, Surface | str | os.PathLike):
         raise InputError(f"surface: got {type(surface).__name__}; give a Surface or the name of its file")
-    if not 0 < tolerance < 1:
-        raise InputError(f"tolerance: got {tolerance!r}; it must be above 0 and below 1")
-    if processes < 1:
-        raise InputError(f"processes: got {processes!r}; it must be 1 or more")
-    steps = (
-        read_recipe({**USUAL, **recipe})
-        if isinstance(recipe, Mapping)
-        else load_recipe(None if recipe is None else Path(recipe), usual=USUAL)
-    )
+    if not isinstance(scene, Scene | str | os.PathLike | None):
+        raise InputError(f"scene: got {type(scene).__name__}; give a scene, such as load_scene() returns, or its file")
+    if isinstance(tolerance, bool) or not isinstance(tolerance, Real) or not 0 < tolerance < 1:
+        raise InputError(f"tolerance: got {tolerance!r:.60}; it must be above 0 and below 1")
+    processes = whole_in_range("processes", processes, 1, MOST_PROCESSES)
+    gap = None if gap is None else in_range("gap", gap, "m")
+    steps = steps_of_windows(recipe)
     given: Surface | Path
     if isinstance(surface, Surface):
         given, name = surface, str(surface.source.get("file", "surface"))

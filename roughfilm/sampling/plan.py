@@ -1,7 +1,6 @@
 """The windows to examine: places on a measurement, or seeds of a description, of several sizes."""
 
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.ranges import in_range, whole_in_range
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
 from roughfilm.contact.preparation.prepare import Levelled, Prepared, cell_of, level
@@ -120,11 +120,11 @@ def planned(
     InputError
         If a size, the count or the recipe is out of range, or a window cannot be prepared.
     """
-    if not 1 <= count <= MAX_WINDOWS:
-        raise InputError(f"windows: got {count}; take 1 to {MAX_WINDOWS}")
-    wrong = [one for one in (size, *(sizes or ())) if one is not None and not (0 < one < math.inf)]
-    if wrong:
-        raise InputError(f"size: got {wrong[0]!r} m; give lengths above 0")
+    count = whole_in_range("windows", count, 1, MAX_WINDOWS)
+    size = None if size is None else in_range("size", size, "m")
+    if isinstance(sizes, str) or not isinstance(sizes, Iterable | None):
+        raise InputError(f"sizes: got {sizes!r:.60}; give a list of lengths in m, or an empty one for a single size")
+    sizes = None if sizes is None else [in_range("sizes", one, "m") for one in sizes]
     if isinstance(given, Path):
         return _of_description(read_description(given), count, size, sizes, name, progress)
     return _of_measurement(given, recipe, count, size, sizes, name, progress)

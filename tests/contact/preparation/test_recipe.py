@@ -81,6 +81,8 @@ def test_an_l_filter_below_the_s_filter_is_refused():
 @pytest.mark.parametrize(
     ("override", "message"),
     [
+        ("edges.direction=q", r"^recipe\.edges\.direction: got 'q'; it must be 'x', 'y', 'both', 'none' or 'auto'$"),
+        ("grid.points=5", r"^recipe\.grid\.points: got 5; write a list in brackets$"),
         ("forn=tilt", r"^recipe\.forn: unknown key; did you mean 'form'\?"),
         ("edges.directon=x", r"^recipe\.edges\.directon: unknown key; did you mean 'direction'\?"),
         ("window.sise=1", r"^recipe\.window\.sise: unknown key; did you mean 'size'\?"),

@@ -75,6 +75,8 @@ def test_a_change_is_said_and_nothing_old_is_kept(place, tmp_path):
     [
         (("--tolerance", "150%"), "error: --tolerance: got '150%'; it must be above 0 and below 100 %"),
         (("--gap", "1um", "--scene", SCENES / "seal.toml"), "error: --gap: got 1um with --scene"),
+        (("--gap=-1um",), "error: --gap: got -1e-06; it must be 1e-22 to 1e+13 m, check the unit"),
+        (("--resolution", "-3"), "error: --resolution: got -3; give a whole number from"),
         (("--sealing",), "error: --sealing: needs --scene with a seal"),
         (("--sealing", "--scene", SCENES / "dry_contact.toml"), "is of the kind 'dry_contact'; it needs a seal"),
         (("--scene", SCENES / "pocket.toml"), "kind: got 'pocket'; windows are put into scenes of the kinds"),

@@ -92,8 +92,11 @@ def test_seeds_of_a_description_keep_its_spacing_and_differ(tmp_path):
         ({"size": 1e-3}, "size: got 1000 µm; the measurement is 300 µm wide, take less"),
         ({"size": 4e-5}, "size: got 40 µm, which is 16 pixels; a window has at least 32 along each side"),
         ({"sizes": [4e-4]}, "sizes: got 400 µm; the measurement is 300 µm wide"),
-        ({"size": -1.0}, "size: got -1.0 m; give lengths above 0"),
-        ({"count": 0}, "windows: got 0; take 1 to 10000"),
+        ({"size": -1.0}, r"^size: got -1.0; it must be 1e-22 to 1e\+13 m"),
+        ({"sizes": [float("nan")]}, "^sizes: got nan; it must be"),
+        ({"sizes": "none"}, "^sizes: got 'none'; give a list of lengths in m"),
+        ({"count": 0}, "windows: got 0; give a whole number from 1 to 10000"),
+        ({"count": 2.5}, "windows: got 2.5; give a whole number from 1 to 10000"),
         ({"set_": ['window.size=["0.1 mm", "0.1 mm"]']}, "window: is set; the windows are chosen here"),
     ],
 )
