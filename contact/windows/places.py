@@ -1,5 +1,7 @@
 """Places of windows on a measurement, and the number of independent windows that they are worth."""
 
+import itertools
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,6 +16,9 @@ from roughfilm.contact.surfaces.surface import Surface
 MAX_WINDOWS = 10_000
 """Largest number of windows of one measurement."""
 
+MAX_ASPECT = 4.0
+"""Largest ratio of the distances of neighbours along x and along y, in units of the window, that is considered."""
+
 COARSE_PIXELS = 512
 """Number of pixels along each axis above which the autocorrelation of a surface is coarsened."""
 
@@ -22,8 +27,9 @@ def window_places(shape: tuple[int, int], window_shape: tuple[int, int], count: 
     """Spread windows of one shape evenly over a measurement, without overlap as long as they fit.
 
     The windows stand in columns along y, which are spread evenly along x; the numbers of windows in two columns differ
-    by at most one. Of all numbers of columns, that with the least total overlap is taken, and of these that with the
-    largest distance between neighbours in units of the window. The result is deterministic.
+    by at most one. Of the numbers of columns within a factor of four of that with equal distances along x and y, in
+    units of the window, that with the least total overlap is taken, and of these that with the largest distance between
+    neighbours. The result is deterministic.
 
     Parameters
     ----------
@@ -46,18 +52,22 @@ def window_places(shape: tuple[int, int], window_shape: tuple[int, int], count: 
     for axis, (size, most) in enumerate(zip(window_shape, shape, strict=True)):
         if not 2 <= size <= most:
             raise InputError(f"windows: got {size} pixels along {'xy'[axis]}, where the surface has {most}; take fewer")
-    candidates = (_in_columns(shape, window_shape, count, columns) for columns in range(1, count + 1))
-    starts = min(candidates, key=lambda starts: _crowding(starts, window_shape))
-    return tuple(Window(start=(int(x), int(y)), shape=window_shape) for x, y in starts)
-
-
-def _in_columns(shape: tuple[int, int], window: tuple[int, int], count: int, columns: int) -> Array:
-    """Starts of windows in a number of columns, shape (count, 2), pixels."""
-    rooms = [most - size for most, size in zip(shape, window, strict=True)]
-    ends = np.rint(np.linspace(0, count, columns + 1)).astype(int)
-    return np.array(
-        [(x, y) for x, n in zip(_even(rooms[0], columns), np.diff(ends), strict=True) for y in _even(rooms[1], int(n))]
+    room_x, room_y = (most - size for most, size in zip(shape, window_shape, strict=True))
+    alike = math.sqrt(count * (room_x / window_shape[0] + 1) / (room_y / window_shape[1] + 1))
+    least, most = max(1, int(alike / MAX_ASPECT)), min(count, math.ceil(MAX_ASPECT * alike))
+    layouts = (
+        (_even(room_x, columns), [_even(room_y, int(n)) for n in np.diff(_shares(count, columns))])
+        for columns in range(min(least, most), most + 1)
     )
+    along_x, along_y = min(layouts, key=lambda layout: _crowding(layout[0], layout[1], window_shape))
+    return tuple(
+        Window(start=(int(x), int(y)), shape=window_shape) for x, ys in zip(along_x, along_y, strict=True) for y in ys
+    )
+
+
+def _shares(count: int, columns: int) -> Array:
+    """Number of windows before each column, and of all."""
+    return np.rint(np.linspace(0, count, columns + 1)).astype(int)
 
 
 def _even(room: int, count: int) -> Array:
@@ -65,16 +75,27 @@ def _even(room: int, count: int) -> Array:
     return np.rint(np.linspace(0, room, count)) if count > 1 else np.array([float(room // 2)])
 
 
-def _crowding(starts: Array, window: tuple[int, int]) -> tuple[float, float]:
-    """The total overlap of all pairs, and minus the least distance of two windows in units of the window."""
-    if len(starts) == 1:
-        return 0.0, 0.0
-    apart = np.abs(starts[:, None] - starts) / window
-    overlap = np.clip(1 - apart, 0, None).prod(axis=2)
-    np.fill_diagonal(overlap, 0.0)
-    distance = apart.max(axis=2)
-    np.fill_diagonal(distance, np.inf)
-    return round(float(overlap.sum()), 9), -round(float(distance.min()), 9)
+def _crowding(along_x: Array, along_y: Sequence[Array], window: tuple[int, int]) -> tuple[float, float]:
+    """The total overlap of all pairs, and minus the least distance of two windows in units of the window.
+
+    Columns of one number of windows have the same places along y, so that pairs of numbers are compared once.
+    """
+    numbers, kind = np.unique([len(ys) for ys in along_y], return_inverse=True)
+    places = [next(ys for ys in along_y if len(ys) == number) / window[1] for number in numbers]
+    overlap, apart, inside, between = (np.zeros((len(places),) * 2) for _ in range(4))
+    for (k, one), (m, two) in itertools.product(enumerate(places), repeat=2):
+        distance = np.abs(one[:, None] - two)
+        overlap[k, m], apart[k, m] = np.clip(1 - distance, 0, None).sum(), distance.min()
+        if k == m:
+            inside[k, k] = overlap[k, k] - len(one)
+            between[k, k] = np.diff(one).min() if len(one) > 1 else np.inf
+    across = np.abs(along_x[:, None] - along_x) / window[0]
+    total = np.clip(1 - across, 0, None) * overlap[kind[:, None], kind]
+    np.fill_diagonal(total, np.diagonal(inside)[kind])
+    distance = np.maximum(across, apart[kind[:, None], kind])
+    np.fill_diagonal(distance, np.diagonal(between)[kind])
+    least = float(distance.min())
+    return round(float(total.sum()), 9), -round(least, 9) if math.isfinite(least) else 0.0
 
 
 def independent_windows(windows: Sequence[Window], surface: Surface | None = None) -> float:

@@ -12,7 +12,6 @@ from roughfilm.contact.fitting.text import DESCRIPTION, description_text
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.timing import stopwatch
-from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.preparation.recipe import load_recipe
 from roughfilm.contact.surfaces.files import read_surface
@@ -21,6 +20,7 @@ from roughfilm.fitting.run import AREA, COUNT, SEEDS, fit_windows
 from roughfilm.sampling.plan import USUAL
 from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, progress_bar
 from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
+from roughfilm.terminal.ranges import in_si
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.fit import HEADS, entries_of, headline, length, notes, rows
 
@@ -59,8 +59,8 @@ def command(
     """Fit a random description to the windows of a surface, and test it with windows that were not fitted."""
     refuse_same({"FILE": file, "--prepare": recipe, "--out": out, "--report": report})
     spent, steps = stopwatch(), load_recipe(recipe, set_ or (), None if recipe else USUAL)
-    side = None if size is None else _si("--size", size, "m")
-    fraction = _si("--area", area, "%") / 100
+    side = None if size is None else in_si("--size", size, "m")
+    fraction = in_si("--area", area, "%") / 100
     with progress_bar(1.0) as advance:
         advance(0.0, f"reading {file.name}")
         given: Surface | Path = file
@@ -106,10 +106,3 @@ def command(
             yield f"{'lacking' if one.lacking else 'windows'}: {one.text}"
 
     show_result(entries, shown(), as_json=as_json, summary=written(headline(fit), out, report))
-
-
-def _si(option: str, text: str, unit: str) -> float:
-    try:
-        return to_si(text.strip(), unit)
-    except ValueError as error:
-        raise InputError(f"{option}: {error}") from None

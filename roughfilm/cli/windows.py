@@ -41,6 +41,7 @@ from roughfilm.terminal.console import (
 )
 from roughfilm.terminal.machines import WAIT, Keys, OnMachines, Scheduler, Wait, Where, waiting_time
 from roughfilm.terminal.output_file import alone, refuse_same, refuse_unwritable
+from roughfilm.terminal.ranges import in_si
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.numbers import share
 from roughfilm.words.windows import entries_of, headline, heads, quantity_cells
@@ -132,7 +133,7 @@ def command(
                 given,
                 steps,
                 count=windows,
-                size=None if size is None else _length("--size", size),
+                size=None if size is None else in_si("--size", size, "m"),
                 sizes=None if sizes is None else _lengths(sizes),
                 name=file.name,
                 progress=lambda done, words: advance(PREPARED * done, words),
@@ -214,7 +215,7 @@ def _asked(plan: Plan, scene: Path | None, gap: str | None, sealing: bool, resol
     if scene is None:
         if sealing:
             raise InputError("--sealing: needs --scene with a seal")
-        return Asked(gap=None if gap is None else in_range("--gap", _length("--gap", gap), "m"))
+        return Asked(gap=None if gap is None else in_range("--gap", in_si("--gap", gap, "m"), "m"))
     if gap is not None:
         raise InputError(f"--gap: got {gap} with --scene, whose load determines the gap; leave one out")
     first = scratch / "first.h5"
@@ -242,15 +243,8 @@ def _say_changes(out: Path, plan: Plan, asked: Asked) -> None:
         print_message("changed", f"the {' and the '.join(changed)} since the last run; such windows are computed again")
 
 
-def _length(option: str, text: str) -> float:
-    try:
-        return to_si(text.strip(), "m")
-    except ValueError as error:
-        raise InputError(f"{option}: {error}") from None
-
-
 def _lengths(text: str) -> list[float]:
-    return [] if text.strip() == "none" else [_length("--sizes", one) for one in text.split(",")]
+    return [] if text.strip() == "none" else [in_si("--sizes", one, "m") for one in text.split(",")]
 
 
 def _tolerance(text: str) -> float:

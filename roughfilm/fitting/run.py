@@ -20,7 +20,7 @@ from roughfilm.fitting.findings import Finding, findings_of, structure_of
 from roughfilm.fitting.judge import Held, halves, held_out, seeds_of
 from roughfilm.fitting.quantities import load_at_area, quantities_of, refuse_area
 from roughfilm.rom.ladder.model import Progress
-from roughfilm.sampling.plan import MIN_PIXELS, PIXEL_STEP, Group, Plan, planned
+from roughfilm.sampling.plan import MIN_PIXELS, PIXEL_STEP, Group, Plan, planned, side_of_squares
 
 COUNT = 48
 """Default number of windows."""
@@ -84,15 +84,6 @@ class Fit:
     def surface_of(self, seed: int) -> Surface:
         """The surface of a seed, 0 or more."""
         return make(self.description.model_copy(update={"seed": seed}))
-
-
-def side_of_squares(size: tuple[float, float], count: int) -> float:
-    """The side of the largest squares of which ``count`` fit into a rectangle in rows and columns, m."""
-    low, high = 0.0, min(size)
-    for _ in range(60):
-        side = 0.5 * (low + high)
-        low, high = (side, high) if (size[0] // side) * (size[1] // side) >= count else (low, side)
-    return low
 
 
 def side_of_windows(surface: Surface, count: int) -> float:

@@ -59,7 +59,8 @@ def windows(
     gap : mean gap, m, at which flow factors are added without a scene.
     sealing : whether the load is sought at which each window of a seal closes.
     tolerance : relative tolerance of the mean for which ``needed`` counts windows.
-    processes : number of processes; 1 computes in this one.
+    processes : number of processes; 1 computes in this one. With more, a program must begin its work under
+        ``if __name__ == "__main__":``, as each process imports it.
     progress : called with the done fraction and a few words.
 
     Returns

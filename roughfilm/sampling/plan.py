@@ -205,18 +205,23 @@ def _prepared(levelled: Levelled, recipe: Recipe, window: Window) -> Prepared:
         raise InputError(f"window of {nx} x {ny} pixels at pixel {i}, {j}: {error}") from None
 
 
+def side_of_squares(size: tuple[float, float], count: int) -> float:
+    """The side of the largest squares of which ``count`` fit into a rectangle in rows and columns, m."""
+    low, high = 0.0, min(size)
+    for _ in range(60):
+        side = 0.5 * (low + high)
+        low, high = (side, high) if (size[0] // side) * (size[1] // side) >= count else (low, side)
+    return low
+
+
 def _largest(surface: Surface, count: int, sal: float) -> float:
     """The default side of the largest windows, m: five decay lengths, or more if ``count`` such squares fit.
 
     It is at most half of the shorter side of the measurement, so that four windows fit without overlap.
     """
-    length, width = surface.size
-    low, high = 0.0, min(length, width)
-    for _ in range(60):
-        side = 0.5 * (low + high)
-        low, high = (side, high) if (length // side) * (width // side) >= count else (low, side)
+    side = side_of_squares(surface.size, count)
     least = MIN_PIXELS * max(surface.spacing)
-    return max(min(max(low, DECAY_LENGTHS * sal), 0.5 * min(surface.size)), min(least, *surface.size))
+    return max(min(max(side, DECAY_LENGTHS * sal), 0.5 * min(surface.size)), min(least, *surface.size))
 
 
 def _shapes(surface: Surface, largest: float, sizes: Sequence[float] | None) -> tuple[list[tuple[int, int]], list[str]]:

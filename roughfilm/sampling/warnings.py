@@ -1,5 +1,6 @@
 """Warnings about single windows, counted over all windows."""
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 
@@ -15,8 +16,8 @@ def counted(warnings: Sequence[Sequence[str]]) -> list[str]:
 
     Examples
     --------
-    >>> counted([["gap 2.1 µm is small"], ["gap 1.4 µm is small"], []])
-    ['2 of 3 windows: gap 2.1 µm is small']
+    >>> counted([["gap 2.14 µm is small"], ["gap 1 µm is small"], []])
+    ['2 of 3 windows: gap 2.14 µm is small']
     """
     counts = Counter(key for own in warnings for key in {_without_numbers(sentence) for sentence in own})
     first = {_without_numbers(sentence): sentence for own in reversed(warnings) for sentence in reversed(own)}
@@ -24,4 +25,4 @@ def counted(warnings: Sequence[Sequence[str]]) -> list[str]:
 
 
 def _without_numbers(sentence: str) -> str:
-    return "".join(" " if one.isdigit() or one in ".-" else one for one in sentence)
+    return re.sub(r"[-.\d]+", "", sentence)

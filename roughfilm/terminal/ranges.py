@@ -130,3 +130,11 @@ def _numbers_of(text: str, read: Callable[[str], float], *, option: str, what: s
     if len(series) < int(count):
         raise InputError(f"{place}: its ends are too close for {int(count)} different {what}s; {remedy}")
     return tuple(series)
+
+
+def in_si(option: str, text: str, unit: str) -> float:
+    """The number of an option with a unit, such as "0.4mm", in an SI unit or per cent; InputError if it has none."""
+    try:
+        return to_si(text.strip(), unit)
+    except ValueError as error:
+        raise InputError(f"{option}: {error}") from None

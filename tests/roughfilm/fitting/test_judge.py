@@ -13,8 +13,8 @@ from roughfilm.contact.synthetic.gaussian import gaussian
 from roughfilm.fitting.findings import Structure, findings_of, structure_of
 from roughfilm.fitting.judge import Held, halves, held_out, interval_of
 from roughfilm.fitting.quantities import NAMES, load_at_area, quantities_of
-from roughfilm.fitting.run import fit_windows, overlap, side_of_squares
-from roughfilm.sampling.plan import Group
+from roughfilm.fitting.run import fit_windows, overlap
+from roughfilm.sampling.plan import Group, side_of_squares
 
 COUNT = 32
 
