@@ -17,7 +17,6 @@ from roughfilm.contact.preparation.recipe import load_recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.fitting.run import AREA, COUNT, SEEDS, fit_windows
-from roughfilm.sampling.plan import USUAL
 from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, progress_bar
 from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
 from roughfilm.terminal.ranges import in_si
@@ -58,7 +57,7 @@ def command(
 ) -> None:
     """Fit a random description to the windows of a surface, and test it with windows that were not fitted."""
     refuse_same({"FILE": file, "--prepare": recipe, "--out": out, "--report": report})
-    spent, steps = stopwatch(), load_recipe(recipe, set_ or (), None if recipe else USUAL)
+    spent, steps = stopwatch(), load_recipe(recipe, set_ or ())
     side = None if size is None else in_si("--size", size, "m")
     fraction = in_si("--area", area, "%") / 100
     with progress_bar(1.0) as advance:

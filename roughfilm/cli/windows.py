@@ -25,7 +25,7 @@ from roughfilm.rom.bearing.mixed.stribeck import MAX_CELLS, MIN_CELLS
 from roughfilm.rom.studies.table import TABLE, table_beginning, write_csv, write_hdf5
 from roughfilm.sampling.answer import answer_of
 from roughfilm.sampling.asked import Asked, asked_of
-from roughfilm.sampling.plan import COUNT, USUAL, Plan, planned
+from roughfilm.sampling.plan import COUNT, Plan, planned
 from roughfilm.sampling.run import examined
 from roughfilm.sampling.tabulate import FIRST_COLUMN
 from roughfilm.sampling.tabulate import table_of as columns_of
@@ -112,7 +112,7 @@ def command(
     spent, processes = stopwatch(), process_count(jobs)
     refuse_same({"FILE": file, "--prepare": recipe, "--scene": scene, "--out": out})
     resolution = whole_in_range("--resolution", resolution, MIN_CELLS, MAX_CELLS)
-    allowed, steps = _tolerance(tolerance), load_recipe(recipe, set_ or (), None if recipe else USUAL)
+    allowed, steps = _tolerance(tolerance), load_recipe(recipe, set_ or ())
     limit = waiting_time(executor, scheduler, tls, wait)
     with (
         nullcontext() if scheduler is None else dask(scheduler, wait=limit, tls=tls) as cluster,

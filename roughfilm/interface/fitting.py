@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.fitting.run import AREA, COUNT, SEEDS, Fit, fit_windows
-from roughfilm.interface.recipes import steps_of_windows
+from roughfilm.interface.recipes import steps_of
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.words.fit import notes
 
@@ -84,7 +84,7 @@ def fit_description(
         given = surface
     else:
         raise InputError(f"surface: got {type(surface).__name__}; give a Surface, such as read_surface() returns")
-    steps = steps_of_windows(recipe)
+    steps = steps_of(recipe)
     if not isinstance(out, str | os.PathLike | None):
         raise InputError(f"out: got {type(out).__name__}; give the name of a file")
     name = given.name if isinstance(given, Path) else str(given.source.get("file", "surface"))

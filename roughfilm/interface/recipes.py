@@ -7,7 +7,6 @@ from typing import Any
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.preparation.recipe import Recipe, load_recipe, read_recipe
-from roughfilm.sampling.plan import USUAL
 
 
 def steps_of(recipe: object, usual: Mapping[str, Any] | None = None) -> Recipe:
@@ -17,8 +16,3 @@ def steps_of(recipe: object, usual: Mapping[str, Any] | None = None) -> Recipe:
     if recipe is not None and not isinstance(recipe, str | os.PathLike):
         raise InputError(f"recipe: got {type(recipe).__name__}; give the name of a TOML file, or a dictionary")
     return load_recipe(None if recipe is None else Path(recipe), usual=usual)
-
-
-def steps_of_windows(recipe: object) -> Recipe:
-    """The recipe of windows, which keep the pixels of the measurement where nested entries set no grid."""
-    return steps_of({**USUAL, **recipe} if isinstance(recipe, Mapping) else recipe, USUAL)

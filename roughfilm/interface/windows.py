@@ -13,7 +13,7 @@ from roughfilm.contact.surfaces import files
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.checks import number_between
-from roughfilm.interface.recipes import steps_of_windows
+from roughfilm.interface.recipes import steps_of
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.sampling.answer import Answer, answer_of
@@ -99,7 +99,7 @@ def windows(
     number_between("tolerance", tolerance, 1e-12, 1 - 1e-12, "it must be above 0 and below 1")
     processes = whole_in_range("processes", processes, 1, MOST_PROCESSES)
     gap = None if gap is None else in_range("gap", gap, "m")
-    steps = steps_of_windows(recipe)
+    steps = steps_of(recipe)
     given: Surface | Path
     if isinstance(surface, Surface):
         given, name = surface, str(surface.source.get("file", "surface"))

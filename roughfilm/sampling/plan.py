@@ -41,9 +41,6 @@ SIZE_RATIOS = (2, 4)
 DECAY_LENGTHS = 5.0
 """Side of a window over the decay length Sal below which a warning is given."""
 
-USUAL: Mapping[str, Any] = {"grid": {"points": "kept"}}
-"""Entries of the recipe of windows without one: they keep the pixels of the measurement."""
-
 SEEDS_APART = 100_000
 """Difference of the first seeds of two sizes."""
 
@@ -141,6 +138,8 @@ def _of_measurement(
 ) -> Plan:
     if recipe.window is not None:
         raise InputError("recipe: window: is set; the windows are chosen here, leave it out and give --size")
+    if "points" not in recipe.grid.model_fields_set:
+        recipe = recipe.model_copy(update={"grid": recipe.grid.model_copy(update={"points": "kept"})})
     progress(0.0, "levelling the measurement")
     levelled = level(surface, recipe)
     filled = levelled.filled

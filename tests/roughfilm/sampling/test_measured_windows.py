@@ -4,14 +4,14 @@ import pytest
 
 import roughfilm as rf
 from roughfilm.contact.preparation.recipe import load_recipe
-from roughfilm.sampling.plan import USUAL, planned
+from roughfilm.sampling.plan import planned
 
 pytestmark = pytest.mark.measured
 
 
 def plan_of(path, **options):
     surface = rf.read_surface(path)
-    return planned(surface, load_recipe(None, (), USUAL), sizes=[], name=path.name, progress=lambda *_: None, **options)
+    return planned(surface, load_recipe(), sizes=[], name=path.name, progress=lambda *_: None, **options)
 
 
 def test_windows_of_striations_count_once_along_them(measured_file):

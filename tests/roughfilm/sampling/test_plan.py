@@ -9,7 +9,7 @@ from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import load_recipe
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_entries
-from roughfilm.sampling.plan import USUAL, planned
+from roughfilm.sampling.plan import planned
 
 MEASURED = {
     "kind": "gaussian",
@@ -24,7 +24,7 @@ MEASURED = {
 
 def plan_of(given, *, set_=(), **options):
     options = {"count": 6, "size": 1e-4, "sizes": None, "name": "m", **options}
-    return planned(given, load_recipe(None, set_, USUAL), progress=lambda *_: None, **options)
+    return planned(given, load_recipe(None, set_), progress=lambda *_: None, **options)
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +59,7 @@ def test_a_window_is_prepared_as_the_recipe_prepares_it(measured):
         None,
         ["smoothing=1"],
         {
-            **USUAL,
+            "grid": {"points": "kept"},
             "edges": {"direction": direction},
             "window": {"start": [f"{x} m" for x in start], "size": [f"{x} m" for x in size]},
         },
