@@ -149,9 +149,7 @@ def read_windows(directory: Path) -> WindowSet:
         raise InputError(f"{path}: {error}; write the set again") from None
     for number, name in enumerate(entries.cells):
         if name != cell_path(number):
-            raise InputError(
-                f"{path}: names the cell {name!r:.60} in place of {cell_path(number)}; write the set again"
-            )
+            raise InputError(f"{path}: names {name!r:.60} in place of {cell_path(number)}; write the set again")
     try:
         return WindowSet(
             cells=tuple(load_surface(directory / name) for name in entries.cells),

@@ -40,9 +40,9 @@ def test_a_damaged_list_is_refused(written, tmp_path):
     with pytest.raises(InputError, match=r"windows.json: size: .*; write the set again$"):
         read_windows(directory)
     path.write_text(json.dumps(entries | {"cells": ["../other.h5"]}))
-    with pytest.raises(InputError, match="names the cell '../other.h5' in place of cells/0001.h5; write the set again"):
+    with pytest.raises(InputError, match=r"names '\.\./other.h5' in place of cells/0001.h5; write the set"):
         read_windows(directory)
-    path.write_text(json.dumps(entries | {"cells": entries["cells"][:2]}))
+    path.write_text(json.dumps(entries | {"cells": entries["cells"][:2], "independent": 2}))
     with pytest.raises(InputError, match="got 3 places of 2 cells"):
         read_windows(directory)
     for change, message in (
@@ -58,9 +58,7 @@ def test_a_damaged_list_is_refused(written, tmp_path):
     path.write_text(json.dumps(entries))
     odd = Surface(heights=np.eye(4), spacing=(1e-6, 2e-6), periodic=True)
     save_surface(odd, directory / entries["cells"][2], overwrite=True)
-    with pytest.raises(
-        InputError, match=r"cell 3 has \(4, 4\) points .*; give windows of one size; write the set again$"
-    ):
+    with pytest.raises(InputError, match=r"cell 3 has \(4, 4\) points .*; give windows of one size; write the set"):
         read_windows(directory)
     (directory / entries["cells"][1]).unlink()
     with pytest.raises(InputError, match=r"0002[.]h5"):
