@@ -26,6 +26,9 @@ FIRST_KEY = "windows_of"
 MAX_BYTES = 100_000_000
 """Largest size of a list that is read, bytes."""
 
+SIZE_TOLERANCE = 0.01
+"""Largest relative difference between the size of a set and that of its cells."""
+
 REMEDY = "give a directory that 'roughfilm windows FILE --out DIR' wrote"
 
 
@@ -54,9 +57,22 @@ class WindowSet:
 
     def __post_init__(self) -> None:
         if not self.cells:
-            raise InputError("windows: a set has one cell at least")
-        if self.windows and len(self.windows) != len(self.cells):
-            raise InputError(f"windows: got {len(self.windows)} places of {len(self.cells)} cells; give one for each")
+            raise InputError("windows: got no cells; a set has one at least")
+        first, count = self.cells[0], len(self.cells)
+        for number, cell in enumerate(self.cells):
+            if (cell.shape, cell.spacing) != (first.shape, first.spacing):
+                raise InputError(
+                    f"windows: cell {number + 1} has {cell.shape} points of {cell.spacing} m, the first one "
+                    f"{first.shape} of {first.spacing} m; give windows of one size"
+                )
+        if not abs(self.size - min(first.size)) <= SIZE_TOLERANCE * min(first.size):
+            raise InputError(f"size: got {self.size:g} m of cells of {min(first.size):g} m; give the length of a cell")
+        if not 1 <= self.independent <= count:
+            raise InputError(f"independent: got {self.independent:g}; it must be 1 to the number of windows, {count}")
+        if self.windows and len(self.windows) != count:
+            raise InputError(f"windows: got {len(self.windows)} places of {count} cells; give one for each")
+        if any(min(window.start) < 0 or min(window.shape) < 2 for window in self.windows):
+            raise InputError("windows: a place begins at a pixel below 0 or has fewer than 2 pixels along a side")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,11 +121,6 @@ def save_windows(windows: WindowSet, directory: Path) -> None:
             path.unlink(missing_ok=True)
 
 
-def is_window_set(directory: Path) -> bool:
-    """Whether a path is a directory with a list of windows."""
-    return (directory / LIST).is_file()
-
-
 def stored_list(directory: Path) -> ListEntries | None:
     """The list of a set, without its cells; None if there is none, or it is damaged."""
     path = directory / LIST
@@ -138,9 +149,7 @@ def read_windows(directory: Path) -> WindowSet:
         raise InputError(f"{path}: {error}; write the set again") from None
     for number, name in enumerate(entries.cells):
         if name != cell_path(number):
-            raise InputError(
-                f"{path}: cells {number + 1}: got {name!r:.60}, not {cell_path(number)}; write the set again"
-            )
+            raise InputError(f"{path}: names {name!r:.60} in place of {cell_path(number)}; write the set again")
     try:
         return WindowSet(
             cells=tuple(load_surface(directory / name) for name in entries.cells),
@@ -152,4 +161,4 @@ def read_windows(directory: Path) -> WindowSet:
         )
     except InputError as error:
         text = str(error)
-        raise InputError(text if text.startswith(str(directory)) else f"{path}: {text}") from None
+        raise InputError(text if text.startswith(str(directory)) else f"{path}: {text}; write the set again") from None

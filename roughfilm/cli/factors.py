@@ -26,7 +26,6 @@ from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.store import load_surface
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING, Surface
 from roughfilm.contact.windows.average import ScatteredQuantity
-from roughfilm.contact.windows.store import is_window_set
 from roughfilm.rom.bearing.mixed.tabulate import gap_of, tabulate_pressed
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.factors import NAMES
@@ -124,7 +123,7 @@ def command(
     refuse_unwritable((out, marked(MARK)), (report, PAGE))
     with alone(out, "table"), progress_bar(1.0) as advance:
         advance(0, f"reading {surface.name}")
-        cells = read_cells(surface) if is_window_set(surface) else None
+        cells = read_cells(surface) if surface.is_dir() else None
         contacts = _read_contacts(surface) if surface.is_file() and is_series(surface) else None
         if contacts is not None and mean_gap is not None:
             raise InputError(f"--gap: {surface} holds contacts, which make a table; leave --gap out")

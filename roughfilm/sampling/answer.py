@@ -197,7 +197,7 @@ def _warnings(plan: Plan, rows: Rows, answer: Answer) -> Iterator[str]:
         )
     if answer.independent < FEW:
         yield (
-            f"{answer.independent:.2g} independent windows are few: the scatter itself is uncertain"
+            f"the windows are worth {answer.independent:.2g} independent ones: the scatter itself is uncertain"
             + (", and no interval is given" if answer.independent < MIN_INDEPENDENT else "")
             + f"; take windows of which {FEW:g} or more fit, or measure more places"
         )

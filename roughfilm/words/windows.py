@@ -9,7 +9,7 @@ from roughfilm.contact.windows.scatter import Scatter
 from roughfilm.contact.windows.size_trend import Verdict
 from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.sampling.answer import Answer, WindowQuantity
-from roughfilm.words.numbers import finite_entries, share
+from roughfilm.words.numbers import SURFACE_UNITS, finite_entries, share
 from roughfilm.words.scales import PERCENT, Scale, scale_for
 from roughfilm.words.units import EXACT
 
@@ -25,9 +25,14 @@ PLAIN = {
     "pressure_max": "greatest pressure",
     "plastic_fraction": "plastic area",
     "approach": "approach",
+    "A11": "pressure flow factor A11",
+    "A22": "pressure flow factor A22",
+    "B1": "shear flow factor B1",
 }
 """Names in a sentence of quantities that a kind of scene does not name."""
 
+DENSITIES = ("1/m", "1/m^2")
+"""Units that only roughness parameters have, which are shown in 1/mm and 1/mm²."""
 
 LARGE, TOO_LARGE = 0.5, 100
 """Relative uncertainty from which on it is given as a factor, and the largest factor that is given as a number."""
@@ -43,6 +48,9 @@ def scale_of_quantity(name: str, one: WindowQuantity) -> Scale:
     """The unit in which a quantity is shown."""
     if name in PERCENT:
         return Scale(factor=0.01, unit="%", negligible=1e-9)
+    if one.unit in DENSITIES:
+        factor, unit = SURFACE_UNITS[one.unit]
+        return Scale(factor=factor, unit=unit)
     return scale_for(one.unit, abs(one.scatter.mean))
 
 
