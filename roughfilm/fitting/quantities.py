@@ -1,15 +1,15 @@
 """Contact pressure, mean gap and leakage of cells, by which seeds of a description are compared with windows."""
 
 from collections.abc import Sequence
-from numbers import Real
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.mechanics.moments import wave_power
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.synthetic.checks import number_between
 from roughfilm.rom.seal.leakage.direct import direct_flow
 
 NAMES = ("contact pressure", "mean gap", "leakage along x", "leakage along y")
@@ -46,8 +46,7 @@ def quantities_of(cell: Surface, load: float) -> Array:
 
 def refuse_area(area: float) -> None:
     """Raise InputError unless a contact area fraction is 0.1 % to 90 %."""
-    if isinstance(area, bool) or not isinstance(area, Real) or not 0.001 <= area <= 0.9:
-        raise InputError(f"area: got {area!r:.60}; give a fraction of 0.1 % to 90 %")
+    number_between("area", area, 0.001, 0.9, "give a fraction of 0.1 % to 90 %")
 
 
 def load_at_area(cells: Sequence[Surface], area: float) -> float:
