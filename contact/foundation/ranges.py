@@ -107,7 +107,6 @@ def whole_in_range(place: str, value: object, least: int, most: int) -> int:
     ...
     roughfilm.contact.foundation.errors.InputError: windows: got 2.5; give a whole number from 1 to 10
     """
-    number: Any = value
-    if isinstance(number, Integral) and number is not True and number is not False and least <= int(number) <= most:
-        return int(number)
+    if not isinstance(value, bool) and isinstance(value, Integral) and least <= int(value) <= most:
+        return int(value)
     raise InputError(f"{place}: got {value!r:.60}; give a whole number from {least} to {most}")

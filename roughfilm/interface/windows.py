@@ -1,5 +1,6 @@
 """Many windows of a measured surface, or seeds of a described one: scatter, effect of their size, and number."""
 
+import math
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -20,6 +21,9 @@ from roughfilm.sampling.answer import Answer, answer_of
 from roughfilm.sampling.asked import Asked, asked_of
 from roughfilm.sampling.plan import COUNT, planned
 from roughfilm.sampling.run import examined
+
+TOLERANCES = math.nextafter(0.0, 1.0), math.nextafter(1.0, 0.0)
+"""Smallest and largest tolerance of a mean."""
 
 MOST_PROCESSES = 1024
 """Largest number of processes."""
@@ -96,7 +100,7 @@ def windows(
         raise InputError(f"surface: got {type(surface).__name__}; give a Surface or the name of its file")
     if not isinstance(scene, Scene | str | os.PathLike | None):
         raise InputError(f"scene: got {type(scene).__name__}; give a scene, such as load_scene() returns, or its file")
-    number_between("tolerance", tolerance, 1e-12, 1 - 1e-12, "it must be above 0 and below 1")
+    tolerance = number_between("tolerance", tolerance, *TOLERANCES, "it must be above 0 and below 1")
     processes = whole_in_range("processes", processes, 1, MOST_PROCESSES)
     gap = None if gap is None else in_range("gap", gap, "m")
     steps = steps_of(recipe)

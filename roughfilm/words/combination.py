@@ -3,9 +3,12 @@
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
+from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.registration.combine import Combined
 from roughfilm.words.numbers import share
-from roughfilm.words.units import in_engineering_unit
+from roughfilm.words.units import EXACT, in_engineering_unit
 
 MEANINGS = {
     "worn_volume_per_area": ("worn volume per area", "mean of before − after above the plane of the unworn points"),
@@ -22,13 +25,28 @@ MEANINGS = {
 }
 
 
+ROUNDING = 1e-9
+"""Length over the range of the heights, or over a pixel, that is not above rounding."""
+
+
 def combination_rows(combined: Combined) -> list[tuple[str, str, str, str, str]]:
     """Title, value, uncertainty, unit and meaning of each quantity, as texts."""
     rows = []
     for name, quantity in combined.quantities.items():
         title, meaning = MEANINGS[name]
-        rows.append((title, *in_engineering_unit(quantity), meaning))
+        rows.append((title, *in_engineering_unit(_above_rounding(combined, name, quantity)), meaning))
     return rows
+
+
+def _above_rounding(combined: Combined, name: str, quantity: Quantity) -> Quantity:
+    """The quantity, with 0 in place of a length or an uncertainty that rounding makes, such as of equal files."""
+    if quantity.unit != "m":
+        return quantity
+    steps = ("shift_x", "shift_y")
+    least = ROUNDING * (min(combined.first.spacing) if name in steps else float(np.ptp(combined.first.heights)))
+    value = quantity.value if abs(quantity.value) > least else 0.0
+    bar = quantity.uncertainty
+    return Quantity(value=value, unit="m", uncertainty=0.0 if bar is not None and bar <= least else bar)
 
 
 def combination_steps(combined: Combined) -> list[str]:
@@ -53,9 +71,9 @@ def combination_steps(combined: Combined) -> list[str]:
 def answer(combined: Combined, names: Sequence[str]) -> str:
     """The result in one sentence."""
     main = "Sq_sum" if combined.operation == "sum" else "worn_volume_per_area"
-    value, uncertainty, unit = in_engineering_unit(combined.quantities[main])
+    value, uncertainty, unit = in_engineering_unit(_above_rounding(combined, main, combined.quantities[main]))
     common = share(combined.quantities["common_fraction"].value)
     if combined.operation == "sum":
         return f"{names[0]} on {names[1]}: composite Sq {value} {unit} over {common} of the smaller surface"
-    known = "" if uncertainty == "unknown" else f" ± {uncertainty}"
-    return f"{names[0]} to {names[1]}: worn volume per area {value}{known} {unit}"
+    bar = "" if uncertainty in (EXACT, "unknown") else f" ± {uncertainty}"
+    return f"{names[0]} to {names[1]}: worn volume per area {value}{bar} {unit}"

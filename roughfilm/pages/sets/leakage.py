@@ -34,7 +34,7 @@ def write_page(scene: Seal, seal: SealOfWindows, entries: Mapping[str, Any], pat
         heads=HEADS,
         cards={
             f"leakage per width along {axis}, {scale.unit}": cells_of(leak, scale),
-            "of the nominal area in contact": cells_of(seal.answer["area_fraction"], area),
+            "contact area over nominal area, %": cells_of(seal.answer["area_fraction"], area),
             "mean gap, µm": cells_of(seal.answer["mean_gap"], gap),
         },
         sealed=leak.zeros,

@@ -72,3 +72,10 @@ def test_faults_are_one_line(run, pair, options, message):
     assert done.exit_code == 2
     assert message in " ".join(done.stderr.split())
     assert "Traceback" not in done.stderr
+
+
+def test_equal_files_differ_by_zero_in_readable_numbers(run, pair):
+    done = run(pair[0], pair[0])
+    assert done.exit_code == 0, done.output
+    assert "worn volume per area 0 m" in " ".join(done.stdout.split())
+    assert "0.0000" not in done.stdout

@@ -163,7 +163,7 @@ def scene_of_tests():
         (("--loads", "4.99GPa"), "the surface carries at most"),
         (("--speeds", "5 kg"), "write a speed"),
         (("--speeds", "-1rpm"), "must be 0 or 1e-19 to"),
-        (("--resolution", "3"), "it must be 16 to 1024"),
+        (("--resolution", "3"), "give a whole number from 16 to 1024"),
         (("--set", "asperities.friction=-1"), "asperities.friction"),
         (("--set", "roughness.surface.seed=2"), "holds another table of flow factors, of another surface"),
     ],
