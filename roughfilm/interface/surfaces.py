@@ -244,6 +244,8 @@ def combine(
         raise InputError(f"operation: got {operation!r:.60}; it must be 'difference' or 'sum'")
     if level not in get_args(combination.Level):
         raise InputError(f"level: got {level!r:.60}; it must be 'unworn' or 'all'")
+    if mirror not in get_args(combination.Mirror):
+        raise InputError(f"mirror: got {mirror!r:.60}; it must be 'x', 'y' or 'none'")
     steps = steps_of(recipe, combination.usual_entries(first, second))
     place = _place("registered" if shift is None and operation == "difference" else shift)
     with finite_arithmetic("combine"):

@@ -180,6 +180,10 @@ BAD = {
         lambda scene, z: rf.combine(*[rf.Surface(heights=z, spacing=(1e-6, 1e-6))] * 2, "product"),
         "operation: got 'product'",
     ),
+    "an unknown axis": (
+        lambda scene, z: rf.combine(*[rf.Surface(heights=z, spacing=(1e-6, 1e-6))] * 2, mirror="z"),
+        "mirror: got 'z'; it must be 'x', 'y' or 'none'",
+    ),
     "a model without cases": (lambda scene, z: rf.write_case(scene, "case", model="film"), "navier_stokes"),
     "a pocket for a bearing": (lambda scene, z: rf.stribeck(scene, [1.0], [1e6]), "kind 'pocket'"),
     "a pocket for a seal": (lambda scene, z: rf.leakage_curve(scene, [1e6]), "kind 'pocket'"),
