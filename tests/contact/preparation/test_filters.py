@@ -147,7 +147,7 @@ def test_the_interior_of_measured_surfaces_is_that_of_surfalize(measured, name):
     micro = [length * 1e6 for length in surface.spacing]
     index = 20 * max(micro)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # about pixels that are not square, which its filter knows
+        warnings.simplefilter("ignore")  # about pixels that are not square, which its filter takes into account
         other = filters.GaussianFilter(index, "lowpass")(surfalize.Surface(surface.heights.T * 1e6, *micro)).data.T
     ours = s_filter(surface, index * 1e-6).heights * 1e6
     inside = tuple(slice(reach, -reach) for reach in (int(1.6 * index / step) + 1 for step in micro))

@@ -39,8 +39,8 @@ def pair(tmp_path):
 def test_wear_is_told_as_json_and_stored(run, pair, tmp_path):
     done = run(*pair, "--json", "--out", tmp_path / "wear.h5")
     assert done.exit_code == 0, done.output
-    told = json.loads(done.stdout)
-    quantities = told["quantities"]
+    message = json.loads(done.stdout)
+    quantities = message["quantities"]
     assert quantities["shift_x"]["value"] == pytest.approx(5e-6, abs=1e-8)
     assert quantities["shift_y"]["value"] == pytest.approx(3e-6, abs=1e-8)
     assert quantities["largest_depth"]["value"] == pytest.approx(3e-6, rel=0.05)
@@ -48,7 +48,7 @@ def test_wear_is_told_as_json_and_stored(run, pair, tmp_path):
     stored = read_surface(tmp_path / "wear.h5")
     assert gone["value"] == pytest.approx(120 * 3e-6 / stored.heights.size, rel=1e-3)
     assert stored.heights.mean() == pytest.approx(gone["value"], rel=1e-9)
-    assert told["provenance"]["record"]["operation"] == "difference"
+    assert message["provenance"]["record"]["operation"] == "difference"
 
 
 def test_walls_are_summed_for_other_commands(run, pair, tmp_path):

@@ -45,21 +45,21 @@ def csv(tmp_path):
 def test_json_is_one_object_with_parameters_before_and_after(run, csv, tmp_path):
     done = run(csv, "--json", "--out", tmp_path / "s.h5", "--set", "smoothing=1")
     assert done.exit_code == 0
-    told = json.loads(done.stdout)
-    assert set(told) == {"quantities", "numerics", "provenance"}
+    message = json.loads(done.stdout)
+    assert set(message) == {"quantities", "numerics", "provenance"}
     names = {*PARAMETERS, *(f"raw_{name}" for name in PARAMETERS)}
     fractions = {"invalid_fraction", "outlier_fraction", "filled_fraction"}
-    assert names | fractions | {"periodicity_mismatch", "raw_periodicity_mismatch"} == set(told["quantities"])
-    assert told["quantities"]["filled_fraction"]["value"] == pytest.approx(1 / 4800)
-    assert told["quantities"]["invalid_fraction"]["value"] == pytest.approx(1 / 4800)
-    assert told["quantities"]["raw_Sq"] == {"value": pytest.approx(1e-6, rel=0.3), "unit": "m"}
-    assert told["numerics"]["residual"] <= 1e-9
-    assert told["provenance"]["recipe"]["smoothing"] == 1
-    assert told["provenance"]["surface"]["file"] == "measured.csv"
+    assert names | fractions | {"periodicity_mismatch", "raw_periodicity_mismatch"} == set(message["quantities"])
+    assert message["quantities"]["filled_fraction"]["value"] == pytest.approx(1 / 4800)
+    assert message["quantities"]["invalid_fraction"]["value"] == pytest.approx(1 / 4800)
+    assert message["quantities"]["raw_Sq"] == {"value": pytest.approx(1e-6, rel=0.3), "unit": "m"}
+    assert message["numerics"]["residual"] <= 1e-9
+    assert message["provenance"]["recipe"]["smoothing"] == 1
+    assert message["provenance"]["surface"]["file"] == "measured.csv"
     stored = read_surface(tmp_path / "s.h5")
     assert stored.shape == (128, 64)
-    assert stored.heights.std() == pytest.approx(told["quantities"]["Sq"]["value"], rel=1e-12)
-    assert stored.source["recipe"] == told["provenance"]["recipe"]
+    assert stored.heights.std() == pytest.approx(message["quantities"]["Sq"]["value"], rel=1e-12)
+    assert stored.source["recipe"] == message["provenance"]["recipe"]
 
 
 def test_the_bearing_curve_of_the_measurement_is_that_of_its_valid_points(run, tmp_path):
@@ -189,8 +189,8 @@ def test_a_synthetic_surface_is_made_from_its_description(run, tmp_path):
     )
     done = run(tmp_path / "s.toml", "--json", "--out", tmp_path / "s.h5")
     assert done.exit_code == 0
-    told = json.loads(done.stdout)
-    assert told["quantities"]["Sq"]["value"] == pytest.approx(2e-6, rel=1e-9)
+    message = json.loads(done.stdout)
+    assert message["quantities"]["Sq"]["value"] == pytest.approx(2e-6, rel=1e-9)
     assert read_surface(tmp_path / "s.h5").source["prepared_from"]["synthetic"]["seed"] == 852
 
 

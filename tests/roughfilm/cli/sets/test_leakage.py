@@ -43,7 +43,7 @@ def _without_pages(monkeypatch):
 
 
 @pytest.fixture(scope="module")
-def told(place):
+def message(place):
     """The answer for four seeds, with the page."""
     return asked("leakage", place / "seal.toml", "--windows", place / "seeds", *LOADS, "--out", place / "out")
 
@@ -64,17 +64,17 @@ def test_equal_windows_give_the_plain_command_without_scatter(place):
             assert equal["quantities"][name]["uncertainty"] == pytest.approx(entry["uncertainty"], rel=1e-7), name
 
 
-def test_the_mean_is_that_of_the_windows_on_their_own(place, told):
+def test_the_mean_is_that_of_the_windows_on_their_own(place, message):
     alone = [
         asked("leakage", place / "seal.toml", *LOADS, "--out", place / f"alone{number}", "--set", key)
         for number in range(1, 5)
         for key in [f"geometry.surface={place}/seeds/cells/{number:04d}.h5"]
     ]
-    for number, row in enumerate(told["series"]):
+    for number, row in enumerate(message["series"]):
         for name in ("area_fraction", "mean_gap", "direct_x", "direct_y", "direct_x_sealed"):
             mean = np.mean([one["series"][number][name] for one in alone])
             assert row[name] == pytest.approx(mean, rel=1e-8, abs=1e-40)
-    leak, own = told["quantities"]["leakage_per_width"], [one["quantities"]["leakage_per_width"] for one in alone]
+    leak, own = message["quantities"]["leakage_per_width"], [one["quantities"]["leakage_per_width"] for one in alone]
     assert leak["value"] == pytest.approx(np.mean([one["value"] for one in own]), rel=1e-8)
     assert leak["uncertainty"] == pytest.approx(np.mean([one["uncertainty"] for one in own]), rel=1e-6)
     assert leak["in_series"] < leak["value"]
@@ -82,25 +82,25 @@ def test_the_mean_is_that_of_the_windows_on_their_own(place, told):
     assert leak["window_interval"][0] < min(one["value"] for one in own)
     assert leak["window_interval"][1] > max(one["value"] for one in own)
     loads = [one["quantities"]["sealing_load_direct_y"]["value"] for one in alone]
-    assert told["quantities"]["sealing_load_direct_y"]["value"] == pytest.approx(np.mean(loads), rel=1e-12)
+    assert message["quantities"]["sealing_load_direct_y"]["value"] == pytest.approx(np.mean(loads), rel=1e-12)
 
 
-def test_tables_and_page_have_the_scatter_beside_the_numerical_uncertainty(place, told):
+def test_tables_and_page_have_the_scatter_beside_the_numerical_uncertainty(place, message):
     table = read_table(place / "out" / "table.h5")
     for name in ("direct_y", "leakage_direct_y", "mean_gap"):
         assert {name, f"{name}_scatter", f"{name}_window_low", f"{name}_window_high"} <= table.keys()
-    assert table["direct_y_scatter"].tolist() == [row["direct_y_scatter"] for row in told["series"]]
-    assert told["windows"]["count"] == 4
+    assert table["direct_y_scatter"].tolist() == [row["direct_y_scatter"] for row in message["series"]]
+    assert message["windows"]["count"] == 4
     page = (place / "out" / "report.html").read_text(encoding="utf-8")
     assert page.count("<svg") == 3
     assert "(numerical)" in page
     assert page.count("by the choice of windows") == 3
 
 
-def test_a_second_run_takes_all_rows_from_the_files(place, told):
+def test_a_second_run_takes_all_rows_from_the_files(place, message):
     again = asked("leakage", place / "seal.toml", "--windows", place / "seeds", *LOADS, "--out", place / "out")
     assert again["numerics"]["loads_found"] == again["numerics"]["rows"] == 8
-    assert again["series"] == told["series"]
+    assert again["series"] == message["series"]
 
 
 def test_default_loads_reach_to_where_the_last_window_seals(place):
