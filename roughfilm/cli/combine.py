@@ -1,7 +1,6 @@
 """roughfilm combine: the difference of two measurements of one place, or the sum of two walls."""
 
 from collections.abc import Iterator
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
@@ -10,7 +9,6 @@ from rich.table import Table
 
 from roughfilm.contact.foundation.checked_hdf5 import marked
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.foundation.writing.kinds import PAGE
@@ -29,7 +27,7 @@ from roughfilm.contact.surfaces.store import MARK, save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.interface.surfaces import read_surface
 from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, progress_bar
-from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
+from roughfilm.terminal.output_file import refuse_same, refuse_unwritable, replacing_together
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.combination import answer, combination_rows, combination_steps
 
@@ -102,11 +100,7 @@ def command(
             record=dict(combined.record),
         )
         names = (file.name, other.name)
-        with ExitStack() as both:  # neither is renamed into place before both are whole
-            surface_file, page = (
-                path and both.enter_context(replacing(path, kind, overwrite=overwrite))
-                for path, kind in ((out, marked(MARK)), (report, PAGE))
-            )
+        with replacing_together((out, marked(MARK)), (report, PAGE), overwrite=overwrite) as (surface_file, page):
             if surface_file is not None:
                 advance(2, "writing the surface")
                 save_surface(combined.surface, surface_file)

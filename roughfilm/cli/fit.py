@@ -1,7 +1,6 @@
 """roughfilm fit: a description whose seeds scatter as the windows of a surface do, and how well."""
 
 from collections.abc import Iterator
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
@@ -10,7 +9,6 @@ from rich.table import Table
 
 from roughfilm.contact.fitting.text import DESCRIPTION, description_text
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.contact.preparation.recipe import load_recipe
@@ -18,7 +16,7 @@ from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.fitting.run import AREA, COUNT, SEEDS, fit_windows
 from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, progress_bar
-from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
+from roughfilm.terminal.output_file import refuse_same, refuse_unwritable, replacing_together
 from roughfilm.terminal.ranges import in_si
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.fit import HEADS, entries_of, headline, length, notes, rows
@@ -84,11 +82,7 @@ def command(
             "numerics": {"windows": len(fit.windows), "seeds": 3 * seeds, **spent()},
             "provenance": origin(SOURCES, fit.warnings, surface=dict(fit.plan.source)),
         }
-        with ExitStack() as both:  # neither is renamed into place before both are whole
-            text, page = (
-                path and both.enter_context(replacing(path, kind, overwrite=overwrite))
-                for path, kind in ((out, DESCRIPTION), (report, PAGE))
-            )
+        with replacing_together((out, DESCRIPTION), (report, PAGE), overwrite=overwrite) as (text, page):
             if text is not None:
                 text.write_text(description_text(fit.description, notes(fit)), encoding="utf-8")
             if page is not None:

@@ -1,7 +1,6 @@
 """roughfilm surface: a periodic roughness cell from a measured surface, with its parameters before and after."""
 
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
@@ -10,7 +9,6 @@ from rich.table import Table
 
 from roughfilm.contact.foundation.checked_hdf5 import marked
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.foundation.writing.kinds import PAGE
@@ -24,7 +22,7 @@ from roughfilm.contact.surfaces.store import MARK, save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
 from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, progress_bar
-from roughfilm.terminal.output_file import refuse_same, refuse_unwritable
+from roughfilm.terminal.output_file import refuse_same, refuse_unwritable, replacing_together
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.numbers import in_unit
 from roughfilm.words.surface import preparation_steps, scale_limits
@@ -82,11 +80,7 @@ def command(
             recipe=recipe_entries(steps),
             record=dict(prepared.record),
         )
-        with ExitStack() as both:  # neither is renamed into place before both are whole
-            surface_file, page = (
-                path and both.enter_context(replacing(path, kind, overwrite=overwrite))
-                for path, kind in ((out, marked(MARK)), (report, PAGE))
-            )
+        with replacing_together((out, marked(MARK)), (report, PAGE), overwrite=overwrite) as (surface_file, page):
             if surface_file is not None:
                 advance(3, "writing the surface")
                 save_surface(prepared.surface, surface_file)

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from roughfilm.contact.foundation.errors import InputError
@@ -44,6 +44,22 @@ def refuse_same(named: Mapping[str, Path | None]) -> None:
         if name in ("--out", "--report") and place in seen:
             raise InputError(f"{name} {path}: is the same file as {seen[place]}; choose another place")
         seen[place] = name
+
+
+@contextmanager
+def replacing_together(*targets: tuple[Path | None, Kind], overwrite: bool) -> Iterator[list[Path | None]]:
+    """Yield a path to write for each file, None for one that is not wanted; all are renamed into place at the end.
+
+    Parameters
+    ----------
+    targets : files, or None for one that is not wanted, with their kinds.
+    overwrite : whether files of another kind are replaced.
+    """
+    with ExitStack() as stack:
+        yield [
+            None if path is None else stack.enter_context(replacing(path, kind, overwrite=overwrite))
+            for path, kind in targets
+        ]
 
 
 @contextmanager
