@@ -13,8 +13,9 @@ from window_sets import surface_of_seed, write_set
 
 from roughfilm.charts.families import FAMILIES
 from roughfilm.charts.family import Ask, ChartFamily, Measured, ReferenceValue
-from roughfilm.cli import compare, stability
+from roughfilm.cli.first_steps import compare
 from roughfilm.cli.main import app
+from roughfilm.cli.upkeep import stability
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.figures import base
 from roughfilm.ladder import models

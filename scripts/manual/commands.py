@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import typer
 from typer.core import TyperGroup
 
-from roughfilm.cli.main import GROUPS, app
+from roughfilm.cli.main import GROUPS, MODULES, app
 from roughfilm.terminal.console import EXIT_CODES
 
 EXIT_CODE = re.compile(r"^ *(\d+) +(.*)$", re.MULTILINE)
@@ -44,7 +44,7 @@ def _command(name: str) -> Iterator[str]:
     yield from ("| argument or option | meaning |", "|---|---|")
     for option, meaning in dict(rows).items():
         yield f"| `{_plain(option)}` | {_plain(meaning)} |".replace("``", "`")
-    examples = getattr(__import__(f"roughfilm.cli.{name}", fromlist=["EXAMPLES"]), "EXAMPLES", ())
+    examples = getattr(__import__(MODULES[name], fromlist=["EXAMPLES"]), "EXAMPLES", ())
     if examples:
         yield from ("", "```sh", *examples, "```")
 

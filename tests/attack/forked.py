@@ -117,7 +117,9 @@ def prepare() -> None:
     warnings.filterwarnings("ignore", message=".*fork", category=DeprecationWarning)
     os.environ["PYTHONPATH"] = str(ROOT)
     os.environ |= {"COLUMNS": "200", "ROUGHFILM_PROGRESS": "off"}
-    for name in ("roughfilm.cli", "roughfilm.pages", "roughfilm.interface"):
+    for name in importlib.import_module("roughfilm.cli.main").MODULES.values():
+        importlib.import_module(name)
+    for name in ("roughfilm.pages", "roughfilm.interface"):
         package = importlib.import_module(name)
         for module in pkgutil.iter_modules(package.__path__):
             importlib.import_module(f"{name}.{module.name}")

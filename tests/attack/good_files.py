@@ -17,10 +17,10 @@ from typer.testing import CliRunner
 from roughfilm.batch.jobs import Failure, FailureRecord, Identity, read_failure
 from roughfilm.batch.plan import read_batch
 from roughfilm.charts.store import known as known_answers
-from roughfilm.cli.cache import _described
-from roughfilm.cli.export import _mesh
-from roughfilm.cli.factors import _read_contacts
 from roughfilm.cli.main import app
+from roughfilm.cli.openfoam_and_other_tools.export import _mesh
+from roughfilm.cli.surfaces.factors import _read_contacts
+from roughfilm.cli.upkeep.cache import _described
 from roughfilm.contact.foundation.cache import Entry
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics import store as contacts

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from roughfilm.cli.main import COMMANDS
+from roughfilm.cli.main import COMMANDS, MODULES
 
 SLOW = ("matplotlib", "pyvista", "numba", "pint", "foamlib", "pyfftw", "scipy.interpolate", "scipy.optimize")
 
@@ -25,7 +25,7 @@ def imported(program):
     ("program", "absent"),
     [
         ("import roughfilm", (*SLOW, "typer")),
-        (COMMAND, (*SLOW, "numpy", "pydantic", "roughfilm.rom", "roughfilm.cli.solve")),
+        (COMMAND, (*SLOW, "numpy", "pydantic", "roughfilm.rom", "roughfilm.cli.first_steps.solve")),
     ],
 )
 def test_nothing_slow_is_imported_where_it_is_not_needed(program, absent):
@@ -41,5 +41,5 @@ def test_a_kind_and_its_models_import_no_more_than_their_data_needs(kind):
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_the_table_of_commands_gives_the_first_paragraph_of_their_help(name):
-    command = importlib.import_module(f"roughfilm.cli.{name}").command
+    command = importlib.import_module(MODULES[name]).command
     assert COMMANDS[name] == " ".join(inspect.getdoc(command).partition("\n\n")[0].split())

@@ -56,7 +56,12 @@ GROUPS = {
         "validate": "Compare published numbers with ours: report.html, validation.json and .md, and an .svg each.",
     },
 }
-"""The commands by their use, each with its help in one line; ``roughfilm/cli/<command>.py`` has the command."""
+"""The commands by their use, each with its help in one line."""
+
+MODULES = {
+    name: f"roughfilm.cli.{use.lower().replace(' ', '_')}.{name}" for use, group in GROUPS.items() for name in group
+}
+"""The module of each command, in the folder that is named after its use."""
 
 WITH_OPENFOAM = frozenset(
     {"models", "advise", "solve", "compare", "batch", "generate", "doctor", "charts", "stability"}
@@ -79,7 +84,7 @@ class _Commands(TyperGroup):
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
         name, _, rest = super().resolve_command(ctx, args)
         sweep_machine()
-        module = importlib.import_module(f"roughfilm.cli.{name}")
+        module = importlib.import_module(MODULES[str(name)])
         alone = typer.Typer(add_completion=False, rich_markup_mode=HELP_MODE)
         function = naming_openfoam(module.command) if name in WITH_OPENFOAM else module.command
         alone.command(name, epilog=help_below(getattr(module, "EXAMPLES", ())))(in_one_line(function))

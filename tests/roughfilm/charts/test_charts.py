@@ -18,8 +18,8 @@ from roughfilm.charts.family import Ask, ChartFamily, Measured, Peer, ReferenceV
 from roughfilm.charts.judgement import counting, entries_of, judged
 from roughfilm.charts.openfoam import pocket_load
 from roughfilm.charts.store import answers
-from roughfilm.cli import charts
 from roughfilm.cli.main import app
+from roughfilm.cli.upkeep import charts
 from roughfilm.contact.foundation.errors import ConvergenceError, UnavailableError
 from roughfilm.ladder import find, models
 from roughfilm.rom.homogenization.cell import solve_cell

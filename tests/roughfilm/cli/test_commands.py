@@ -16,8 +16,8 @@ import shellingham
 from places import SCENES
 from typer.testing import CliRunner
 
-from roughfilm.cli import compare
 from roughfilm.cli import main as cli
+from roughfilm.cli.first_steps import compare
 from roughfilm.cli.main import app
 from roughfilm.ladder import models
 from roughfilm.rom.ladder.model import Availability, find, of_kind

@@ -11,7 +11,7 @@ from places import SCENES
 from typer.testing import CliRunner
 
 from roughfilm.batch import jobs
-from roughfilm.cli import compare
+from roughfilm.cli.first_steps import compare
 from roughfilm.cli.main import app
 from roughfilm.ladder import models
 from roughfilm.rom.advice.stated import StatedError

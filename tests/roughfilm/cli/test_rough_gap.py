@@ -9,7 +9,7 @@ import pytest
 from places import SCENES
 from typer.testing import CliRunner
 
-from roughfilm.cli import compare
+from roughfilm.cli.first_steps import compare
 from roughfilm.cli.main import app
 from roughfilm.figures import gap_view
 from roughfilm.ladder import models

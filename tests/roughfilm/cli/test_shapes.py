@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from roughfilm.cli import compare
+from roughfilm.cli.first_steps import compare
 from roughfilm.figures.streamlines import shown
 from roughfilm.figures.views.pocket import pressure
 from roughfilm.foamcases.pocket.case import vertices_of

@@ -12,8 +12,8 @@ from small_scenes import CONTACT, SEAL, SURFACE
 from typer import rich_utils
 from typer.testing import CliRunner
 
-from roughfilm.cli.main import COMMANDS, app
-from roughfilm.cli.models import TYPICAL_CPU_S, overview, typical_cpu_s
+from roughfilm.cli.first_steps.models import TYPICAL_CPU_S, overview, typical_cpu_s
+from roughfilm.cli.main import COMMANDS, MODULES, app
 from roughfilm.ladder import models
 from roughfilm.rom.ladder.model import Availability
 from roughfilm.rom.ladder.scene import load_scene
@@ -118,7 +118,7 @@ def test_the_help_fits_80_columns_and_ends_with_examples_and_exit_codes(name, mo
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_the_examples_of_the_help_can_be_typed(name):
-    module = importlib.import_module(f"roughfilm.cli.{name}")
+    module = importlib.import_module(MODULES[name])
     group = typer.main.get_command(app)
     for line in module.EXAMPLES:
         program, *words = shlex.split(line.partition(">")[0])

@@ -10,8 +10,8 @@ import pytest
 from typer.testing import CliRunner
 
 from roughfilm.batch.jobs import failure_of
-from roughfilm.cli import stability
 from roughfilm.cli.main import app
+from roughfilm.cli.upkeep import stability
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome, UnavailableError
 from roughfilm.ladder import find, models
 from roughfilm.pages.render import TEMPLATES

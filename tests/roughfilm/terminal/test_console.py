@@ -12,7 +12,7 @@ from types import SimpleNamespace
 import pytest
 import typer
 
-from roughfilm.cli.advise import Want
+from roughfilm.cli.first_steps.advise import Want
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.timing import one_time
 from roughfilm.terminal import console

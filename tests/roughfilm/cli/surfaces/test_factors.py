@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from roughfilm.cli import factors
 from roughfilm.cli.main import app
+from roughfilm.cli.surfaces import factors
 from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.homogenization.table.store import load_table

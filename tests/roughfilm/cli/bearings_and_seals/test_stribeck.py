@@ -188,7 +188,7 @@ def test_another_kind_of_scene_is_refused(tmp_path):
 
 
 def test_the_page_begins_with_the_friction_at_the_speed_of_the_scene(swept, tmp_path, monkeypatch):
-    monkeypatch.setattr("roughfilm.cli.stribeck.ROTATIONAL_SPEEDS", "20rpm,500rpm")
+    monkeypatch.setattr("roughfilm.cli.bearings_and_seals.stribeck.ROTATIONAL_SPEEDS", "20rpm,500rpm")
     table = ("--table", swept[0] / "table.h5", "--set", "motion.speed=1 m/s")
     done = run("--out", tmp_path, "--loads", "1MPa", *table, "--json")
     assert done.exit_code == 0, done.stderr

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from roughfilm.batch.progress import BatchProgress
-from roughfilm.cli.batch import _show_outcome
+from roughfilm.cli.many_cases.batch import _show_outcome
 
 
 @pytest.mark.parametrize(("count", "words"), [(1, "warning: 1 result has warnings;"), (2, "2 results have warnings;")])

@@ -21,7 +21,7 @@ from places import SCENES
 
 from roughfilm.batch import jobs as runs
 from roughfilm.batch.jobs import Job
-from roughfilm.cli import compare
+from roughfilm.cli.first_steps import compare
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.figures import rendering

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from roughfilm.cli.advise import Want, entries_of, tolerance_of
+from roughfilm.cli.first_steps.advise import Want, entries_of, tolerance_of
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.interface.solving import solve, solve_as_advised
 from roughfilm.ladder import find

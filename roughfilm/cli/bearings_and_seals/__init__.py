@@ -1,0 +1,1 @@
+"""The commands under 'Bearings and seals' in the help, one a file."""

@@ -1,0 +1,1 @@
+"""The commands under 'First steps' in the help, one a file."""

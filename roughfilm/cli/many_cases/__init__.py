@@ -1,0 +1,1 @@
+"""The commands under 'Many cases' in the help, one a file."""

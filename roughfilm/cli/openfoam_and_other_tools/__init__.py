@@ -1,0 +1,1 @@
+"""The commands under 'OpenFOAM and other tools' in the help, one a file."""

@@ -1,0 +1,1 @@
+"""The commands under 'Surfaces' in the help, one a file."""

@@ -1,0 +1,1 @@
+"""The commands under 'Upkeep' in the help, one a file."""
