@@ -8,16 +8,12 @@ from roughfilm.foamcases.openfoam.model import Cases, CaseWriter
 from roughfilm.foamcases.pocket.card import layers_of
 from roughfilm.rom.ladder.model import Resolutions
 from roughfilm.rom.ladder.request import CheckedRequest
+from roughfilm.rom.pocket.model import in_plan_or_not
 from roughfilm.rom.pocket.scene import Pocket
 
 SOURCES = ("10.1115/1.1828067", "10.1063/1.168744", "10.1080/01495728408961817")
 GROOVE_COLUMNS = Resolutions(least=12, most=4000, default=240, series=(30, 60, 120, 240))
 PLAN_COLUMNS = Resolutions(least=12, most=400, default=96, series=(24, 48, 96))
-
-
-def resolutions(scene: Pocket) -> Resolutions:
-    """The resolutions for grooves, or those for a cell in plan."""
-    return PLAN_COLUMNS if scene.in_plan else GROOVE_COLUMNS
 
 
 def cost(scene: Pocket, resolution: int) -> float:
@@ -47,7 +43,7 @@ def _writer(*, run: bool) -> CaseWriter[Pocket]:
 
 CASES = Cases(
     kind="pocket",
-    resolutions=resolutions,
+    resolutions=in_plan_or_not(GROOVE_COLUMNS, PLAN_COLUMNS),
     resolution_meaning="mesh columns along the film, with a fifth as many layers across",
     residual_meaning="largest initial residual of velocity and pressure that a new process finds in the fields on disk",
     tolerance=1e-7,

@@ -83,4 +83,4 @@ def _distance(table: Array, places: Array, period: float) -> Array:
         return np.full(table.shape, np.inf)
     around = np.unique(np.add.outer([-period, 0.0, period], places))
     after = np.clip(np.searchsorted(around, table), 1, around.size - 1)
-    return np.minimum(np.abs(table - around[after - 1]), np.abs(table - around[after]))
+    return np.asarray(np.minimum(np.abs(table - around[after - 1]), np.abs(table - around[after])))

@@ -41,7 +41,7 @@ class Coordinates:
 
     def displacement(self, s: float) -> Array:
         """The displacements at the nodes at s = (1 - z)/h, shape (nx + 1, ny + 1, 2)."""
-        return np.einsum("xymc,m->xyc", self.amplitudes, _polynomials(np.array([s]))[0][:, 0])
+        return np.asarray(np.einsum("xymc,m->xyc", self.amplitudes, _polynomials(np.array([s]))[0][:, 0]))
 
 
 def harmonic(x: Array, y: Array, thickness: Array) -> Coordinates:

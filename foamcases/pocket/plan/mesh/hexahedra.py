@@ -24,7 +24,7 @@ def quads(vertices: Array, axis: int) -> tuple[Array, Array]:
     """
     moved = np.moveaxis(vertices, (axis, (axis + 1) % 3, (axis + 2) % 3), (0, 1, 2))
     corners = [moved[:, :-1, :-1], moved[:, 1:, :-1], moved[:, 1:, 1:], moved[:, :-1, 1:]]
-    middle = sum(corners) / 4
+    middle = np.mean(corners, axis=0)
     area, moment, weight = np.zeros_like(middle), np.zeros_like(middle), np.zeros(middle.shape[:-1])
     for one, other in zip(corners, [*corners[1:], corners[0]], strict=True):
         triangle = np.cross(one - middle, other - middle) / 2
@@ -51,7 +51,7 @@ def cells(vertices: Array) -> tuple[Array, Array]:
         for sign, place in ((-1.0, slice(None, -1)), (1.0, slice(1, None))):
             at = (slice(None),) * axis + (place,)
             faces.append((sign * area[at], centre[at]))
-    tip = sum(centre for _, centre in faces) / len(faces)
+    tip = np.mean([centre for _, centre in faces], axis=0)
     volume, moment = np.zeros(tip.shape[:-1]), np.zeros_like(tip)
     for area, centre in faces:
         pyramid = (area * (centre - tip)).sum(axis=-1) / 3

@@ -9,6 +9,9 @@ from roughfilm.foamcases.pocket.plan.mesh.coordinates import Coordinates, harmon
 from roughfilm.foamcases.pocket.plan.mesh.hexahedra import upright
 from roughfilm.rom.pocket.plan.plan import Plan
 
+LEAN = 1.0
+"""Share of the way from a vertical column to a line of constant harmonic coordinates; verification takes 0 as well."""
+
 STRAIGHTENING = 0.7
 """Factor by which the lean of columns is reduced where cells fold, as often as they do."""
 
@@ -47,13 +50,13 @@ def vertices_of(plan: Plan, resolution: int) -> Array:
 
     grid = np.stack(np.meshgrid(sides.x, sides.y, indexing="ij"), axis=-1)
     lean = _lean(harmonic(sides.x, sides.y, thickness(grid[..., 0], grid[..., 1])), grid, layers)
-    share = np.ones(grid.shape[:2])
+    share = np.full(grid.shape[:2], LEAN)
     while True:
         vertices = np.empty((*grid.shape[:2], layers + 1, 3))
         places = _periodic(grid[:, :, None] + share[..., None, None] * lean, sides, mirrored=plan.mirrored)
         vertices[..., :2] = places
         vertices[..., 2] = 1 - np.linspace(1, 0, layers + 1) * thickness(places[..., 0], places[..., 1])
-        folded = ~upright(vertices).all(axis=2)
+        folded: Mask = np.asarray(~upright(vertices).all(axis=2))
         if not folded.any():
             return vertices
         share = _straightened(share, folded)
