@@ -186,9 +186,9 @@ DIMPLES = replace(
     name="dimple",
     title="A dimple under a sliding wall",
     axes="A spherical dimple 500 µm wide in a square cell of 1000 µm under a film of 30 µm: Re = ρ u Ly/η (columns) "
-    "and depth d+ = d/Ly (rows), by every model with every scheme; OpenFOAM with {resolution} mesh columns along the cell, "
-    f"the other models at their default resolution. Above Re = {TURBULENT:g} shear flow turns turbulent, and every "
-    "model takes it as laminar.",
+    "and depth d+ = d/Ly (rows), by every model with every scheme; OpenFOAM with {resolution} mesh columns along the "
+    f"cell, the other models at their default resolution. Above Re = {TURBULENT:g} shear flow turns turbulent, and "
+    "every model takes it as laminar.",
     resolution=32,
     solve=Places(entries=DIMPLE).solve,
 )
