@@ -6,13 +6,13 @@ from pathlib import Path
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.foamcases.conformal.orthogonal import orthogonal
 from roughfilm.foamcases.openfoam.allrun import allrun
 from roughfilm.foamcases.openfoam.block_mesh import write_block
 from roughfilm.foamcases.openfoam.case_directory import write_papers, write_whole, written_for
 from roughfilm.foamcases.openfoam.dialect import Dialect
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, write_dictionaries, write_second_try
 from roughfilm.foamcases.openfoam.residuals import Judged
-from roughfilm.foamcases.pocket.mesh.orthogonal import orthogonal
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.pocket.scene import Pocket
 

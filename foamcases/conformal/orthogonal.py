@@ -17,10 +17,10 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.foamcases.pocket.mesh import harmonic, laplace
-from roughfilm.foamcases.pocket.mesh.cells import convex
-from roughfilm.foamcases.pocket.mesh.laplace import OnWalls, over_periods
-from roughfilm.foamcases.pocket.mesh.wall import CROWDED_POINTS, Wall, wall_of
+from roughfilm.foamcases.conformal import harmonic, laplace
+from roughfilm.foamcases.conformal.cells import convex
+from roughfilm.foamcases.conformal.laplace import OnWalls, over_periods
+from roughfilm.foamcases.conformal.wall import CROWDED_POINTS, Wall, wall_of
 from roughfilm.rom.pocket.columns import MIN_CORNER_DISTANCE, columns
 from roughfilm.rom.pocket.gap import Gap
 
