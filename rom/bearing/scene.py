@@ -199,7 +199,11 @@ class Bearing(Scene):
     @model_validator(mode="after")
     def _can_be_solved(self) -> Self:
         lowest = self.lubricant.cavitation_pressure
-        self._has_ram_pressure()
+        if self.boundary.inlet.ram_factor and self.lubricant.density is None:
+            raise ValueError(
+                f"boundary.inlet.ram_factor: got {self.boundary.inlet.ram_factor:g} without lubricant.density, by "
+                "which the ram pressure is determined; give the density"
+            )
         inlet = self.inlet_pressure if self.boundary.inlet.theta is None else None
         places = {"inlet": inlet, "outlet": self.boundary.outlet.pressure}
         sides = {"sides.low": self.boundary.sides.low, "sides.high": self.boundary.sides.high}
@@ -267,19 +271,6 @@ class Bearing(Scene):
             raise ValueError("asperities.solid: is missing; give the solid of the rough wall")
         if isinstance(self.roughness, StoredTable) and asperities.solid is not None:
             raise ValueError("asperities.solid: got one, but the stored table has its own solids; leave it out")
-
-    def _has_ram_pressure(self) -> None:
-        factor = self.boundary.inlet.ram_factor
-        if factor and self.lubricant.density is None:
-            raise ValueError(
-                f"boundary.inlet.ram_factor: got {factor:g} without a density; give lubricant.density, of which the "
-                "ram pressure is a part"
-            )
-        if factor and self.motion.speed < 0:
-            raise ValueError(
-                f"boundary.inlet.ram_factor: got {factor:g} for a wall that slides towards the inlet; give a speed "
-                "above 0, or leave it out"
-            )
 
     def _can_be_joined(self) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure

@@ -103,7 +103,7 @@ def test_pockets_lie_where_they_are_put():
             "scene.boundary.inlet.pressure: got -1000000.0 Pa; it must be at least",
         ),
         ("boundary.inlet.ram_factor=1 bar", "scene.boundary.inlet.ram_factor: got '1 bar'; write a plain number"),
-        ("boundary.inlet.ram_factor=1", "scene.boundary.inlet.ram_factor: got 1 without a density; give lubricant"),
+        ("boundary.inlet.ram_factor=1", "scene.boundary.inlet.ram_factor: got 1 without lubricant.density, by which"),
         ('boundary.inlet={"theta": 1, "ram_factor": 1}', "got theta, which determines the pressure, and ram_factor"),
         ("boundary.outlet.pressure=-1 MPa", "scene.boundary.outlet.pressure: got -1000000.0 Pa; it must be at least"),
         ("lubricant.cavitation_pressure=1 MPa", "it must be at least the cavitation pressure"),
@@ -152,8 +152,7 @@ def test_the_ram_pressure_adds_to_the_pressure_at_the_inlet_and_grows_with_the_s
     assert scene.inlet_pressure == pytest.approx(1e5 + 0.5 * 900 * 10**2 / 2)
     assert scene.ends.inlet == pytest.approx(scene.inlet_pressure + 0.5e5)
     assert scene.at_speed(20.0).inlet_pressure == pytest.approx(1e5 + 0.5 * 900 * 20**2 / 2)
-    with pytest.raises(InputError, match=r"ram_factor: got 0\.5 for a wall that slides towards the inlet"):
-        load_scene(SLIDER, [*given, "motion.speed=-1 m/s"])
+    assert scene.at_speed(-10.0).inlet_pressure == scene.inlet_pressure
     with pytest.raises(InputError, match=r"inlet\.pressure: got -45000\.0 Pa; it must be at least the cavitation"):
         load_scene(SLIDER, [given[0], "boundary.inlet.ram_factor=-1", "motion.speed=10 m/s"])
 
