@@ -21,8 +21,8 @@ from roughfilm.foamcases.conformal import harmonic, laplace
 from roughfilm.foamcases.conformal.cells import convex
 from roughfilm.foamcases.conformal.laplace import OnWalls, over_periods
 from roughfilm.foamcases.conformal.wall import CROWDED_POINTS, Wall, wall_of
-from roughfilm.rom.pocket.columns import MIN_CORNER_DISTANCE, columns
-from roughfilm.rom.pocket.gap import Gap
+from roughfilm.rom.thin_film.columns import MIN_CORNER_DISTANCE, columns
+from roughfilm.rom.thin_film.gap import Gap
 
 COARSE = ((240, 20), (480, 20), (960, 20))
 """Columns and layers of the grids on which ξ is solved; a finer one is taken if cells of the mesh fold."""
@@ -74,7 +74,7 @@ class Columns:
 def orthogonal(gap: Gap, resolution: int, layers: int) -> Array:
     """The vertices of the near-orthogonal mesh of a gap, shape (columns + 1, layers + 1, 2), in film thicknesses.
 
-    Layers count from the lower wall. Columns are as dense as :func:`roughfilm.rom.pocket.columns.columns` makes them
+    Layers count from the lower wall. Columns are as dense as :func:`roughfilm.rom.thin_film.columns.columns` makes them
     along the mean of both walls, and every corner of the gap is a vertex. The first column begins at the start of the
     period on the upper wall, and the last one is its copy one period later.
 

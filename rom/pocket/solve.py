@@ -11,13 +11,13 @@ from roughfilm.rom.ladder.model import Effect, Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Field, Numerics, Result
-from roughfilm.rom.pocket import slope, thin_film
-from roughfilm.rom.pocket.basis import Basis, even_basis, gauss_basis, sliding_wall_slope
 from roughfilm.rom.pocket.model import SCHEMES
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
-from roughfilm.rom.pocket.thin_film import Strip, StripFlow
 from roughfilm.rom.pocket.validity.promise import promise_warnings
 from roughfilm.rom.pocket.validity.warnings import cancellations, cautions, ruptures
+from roughfilm.rom.thin_film import slope, thin_film
+from roughfilm.rom.thin_film.basis import Basis, even_basis, gauss_basis, sliding_wall_slope
+from roughfilm.rom.thin_film.thin_film import Strip, StripFlow
 
 MODES = 10
 """Polynomials across the film; with 16 load changes by at most 3e-5 and friction by 3e-4 in 120 published cases."""
@@ -108,8 +108,9 @@ def _with_slope(
 def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:
     """Solve the thin-film Navier-Stokes equations (``thin_film``), with slope to second order if the model has it.
 
-    The correction for slope (:mod:`rom.pocket.slope`) is the linear response of the film to the neglected forces. The
-    error is of second order in the cell size (of first order with the scheme ``upwind``), and spectral across the film.
+    The correction for slope (:mod:`roughfilm.rom.thin_film.slope`) is the linear response of the film to the neglected
+    forces. The error is of second order in the cell size (of first order with the scheme ``upwind``), and spectral
+    across the film.
 
     Raises
     ------

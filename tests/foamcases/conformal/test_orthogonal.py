@@ -8,8 +8,8 @@ from roughfilm.foamcases.conformal import harmonic, laplace
 from roughfilm.foamcases.conformal.cells import centres, convex
 from roughfilm.foamcases.conformal.orthogonal import orthogonal
 from roughfilm.foamcases.conformal.wall import wall_of
-from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.groove import channel, cylindrical, splined
+from roughfilm.rom.thin_film.gap import Gap
 
 FILM, LENGTH = 3e-5, 1e-3
 

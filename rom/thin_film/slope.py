@@ -17,9 +17,9 @@ Where the wall is smooth this has no effect of second order.
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.pocket import periodic_solve as ring
-from roughfilm.rom.pocket.basis import Basis
-from roughfilm.rom.pocket.thin_film import Strip, StripFlow, all_amplitudes, stream_function, velocity
+from roughfilm.rom.thin_film import periodic_solve as ring
+from roughfilm.rom.thin_film.basis import Basis
+from roughfilm.rom.thin_film.thin_film import Strip, StripFlow, all_amplitudes, stream_function, velocity
 
 DECAY_LENGTH = 1 / np.pi
 """Decay length of a disturbance along the film, in film thicknesses: the slowest mode is sin(πY) exp(-πx/h)."""
@@ -34,7 +34,7 @@ def velocities(film: Strip, across: Basis, state: StripFlow) -> tuple[Array, Arr
 
 
 def imbalance(film: Strip, across: Basis, reynolds_number: float, state: StripFlow) -> Array:
-    """The imbalance -∫∫ φ_k ∂T/∂x dy dx of every cell, shape (cells, n), for :func:`rom.pocket.thin_film.step`."""
+    """The imbalance -∫∫ φ_k ∂T/∂x dy dx of every cell, shape (cells, n), for :func:`rom.thin_film.thin_film.step`."""
     u, v = velocities(film, across, state)
     below, slope = 1 - across.nodes, _wall_slope(film)[:, None]
     h, between = film.thickness[:, None], (film.lengths + np.roll(film.lengths, 1))[:, None] / 2

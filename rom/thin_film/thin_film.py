@@ -5,7 +5,7 @@ sliding one, and the stream function ψ(x, Y) = h ∫_0^Y u dY:
 
     Re [ ∂(h u²)/∂x - ∂(u ∂ψ/∂x)/∂Y ] = -h dp/dx + (1/h) ∂²u/∂Y²,      ψ(x, 1) = q.
 
-Across the film u = Y + Σ a_k φ_k(Y) (:mod:`roughfilm.rom.pocket.basis`), tested with the same φ_k. The flow gives
+Across the film u = Y + Σ a_k φ_k(Y) (:mod:`roughfilm.rom.thin_film.basis`), tested with the same φ_k. The flow gives
 a_0 = (q/h - 1/2) / ∫φ_0, and the pressure appears in the test with φ_0 alone. Along the film the method uses
 second-order finite volumes: the momentum through a face is reconstructed at each Y from the upstream side, which is
 downstream for back-flow, so that the solution has no oscillations.
@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.pocket import periodic_solve as ring
-from roughfilm.rom.pocket.basis import STIFFNESS, Basis
-from roughfilm.rom.pocket.columns import columns
-from roughfilm.rom.pocket.gap import Gap
+from roughfilm.rom.thin_film import periodic_solve as ring
+from roughfilm.rom.thin_film.basis import STIFFNESS, Basis
+from roughfilm.rom.thin_film.columns import columns
+from roughfilm.rom.thin_film.gap import Gap
 
 OFFSETS = (-2, -1, 0, 1)
 """The cells whose values are interpolated to a face, relative to the cell on its right."""
