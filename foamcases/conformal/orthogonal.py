@@ -89,7 +89,6 @@ def orthogonal(gap: Gap, resolution: int, layers: int) -> Array:
     InputError
         If cells fold or are not convex, as they do at a sharp ridge between two grooves.
     """
-
     return _unfolded(
         gap, resolution, lambda wall, places: _period(wall, places, _columns(wall, places, resolution), layers)
     )

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from roughfilm.foamcases.conformal.cells import centres
-from roughfilm.foamcases.pocket.fields import Channel
+from roughfilm.foamcases.conformal.channel import Channel
 
 
 @pytest.fixture
