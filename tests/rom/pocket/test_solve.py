@@ -11,9 +11,9 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.model import ladder, of_kind
 from roughfilm.rom.ladder.request import Request
-from roughfilm.rom.pocket.solve import MODES
 from roughfilm.rom.thin_film import thin_film
 from roughfilm.rom.thin_film.basis import gauss_basis
+from roughfilm.rom.thin_film.newton import MODES
 
 MODELS = of_kind(ladder(rom), "pocket")
 FILM, FILM_SLOPE, REYNOLDS = (find("pocket", name) for name in ("film", "film_slope", "reynolds"))
