@@ -196,7 +196,7 @@ def solution(
     relaxation: float,
     coarsest: int,
     velocity_gain: float,
-    controlled: tuple[str, ...] = ("p", "U"),
+    controlled: Mapping[str, float] | None = None,
 ) -> Dictionary:
     """The dictionary ``system/fvSolution`` for SIMPLEC.
 
@@ -208,7 +208,7 @@ def solution(
     relaxation : the relaxation of velocity.
     coarsest : the number of cells on multigrid's coarsest level.
     velocity_gain : the linear solver's last residual of velocity over its first one, at which it may stop.
-    controlled : the fields whose residuals must meet the tolerance.
+    controlled : residual that each of some fields must reach to end the run; None for the tolerance of ``p`` and ``U``.
     """
     return (
         "dictionary",
@@ -233,7 +233,7 @@ def solution(
                 "nNonOrthogonalCorrectors": 0,
                 "pRefCell": 0,
                 "pRefValue": 0,
-                "residualControl": dict.fromkeys(controlled, tolerance),
+                "residualControl": {"p": tolerance, "U": tolerance} if controlled is None else controlled,
             },
             "relaxationFactors": {
                 "fields": {"p": dialect.pressure_relaxation(relaxation)},
