@@ -25,11 +25,11 @@ MIN_CORNER = 1e-3
 """Jump of the slope above which a break is a corner, over the largest of both slopes and of film over length."""
 
 
-def pad_obstacle(scene: Bearing) -> str | None:
+def film_obstacle(scene: Bearing) -> str | None:
     """The reason for which the flow across the film of a bearing is not resolved; None for a pad where it is.
 
-    It is resolved in infinitely wide pads with a smooth wall without steps, of a given film, with a flooded inlet and a
-    liquid of constant density and viscosity.
+    It is resolved in infinitely wide pads with a smooth wall, of a given film, with a flooded inlet and a liquid of
+    constant density and viscosity.
     """
     geometry, lubricant, theta = scene.geometry, scene.lubricant, scene.boundary.inlet.theta
     if not isinstance(geometry, Pad):
@@ -48,11 +48,20 @@ def pad_obstacle(scene: Bearing) -> str | None:
         return f"the inlet is starved (theta = {theta:g}), which needs a model with cavitation"
     if scene.motion.speed == 0:
         return "the wall does not slide"
-    shape = geometry.film_shape()
-    for place in shape.breaks[1:-1]:
-        before, behind = _thickness(shape, place + BESIDE * geometry.length * np.array([-1.0, 1.0]))
-        if abs(behind - before) > MAX_STEP * geometry.thinnest:
-            return f"the wall has a step at x = {place:.4g} m, and a thin film needs walls of finite slope"
+    return None
+
+
+def pad_obstacle(scene: Bearing) -> str | None:
+    """The reason for which the equations of a thin film do not hold in a bearing; None for a pad where they do.
+
+    They hold where :func:`film_obstacle` finds nothing and the wall has no steps.
+    """
+    obstacle = film_obstacle(scene)
+    if obstacle is not None:
+        return obstacle
+    for place, _ in steps(pad_gap(scene)):
+        at = place if scene.motion.speed > 0 else scene.geometry.length - place
+        return f"the wall has a step at x = {at:.4g} m, and a thin film needs walls of finite slope"
     return None
 
 
@@ -78,6 +87,16 @@ def pad_gap(scene: Bearing) -> Gap:
         if _slope_jump(thickness, place, SLOPE_STEP * min(place - before, behind - place), film / length) > MIN_CORNER
     ]
     return Gap(film=film, breaks=breaks, corners=tuple(corners), thickness=thickness)
+
+
+def steps(gap: Gap) -> tuple[tuple[float, float], ...]:
+    """The steps of the wall of a pad: places and jumps of the film thickness along the motion, m."""
+    found = []
+    for place in gap.breaks[1:-1]:
+        before, behind = gap.thickness(place + BESIDE * gap.length * np.array([-1.0, 1.0]))
+        if abs(behind - before) > MAX_STEP * gap.film:
+            found.append((place, float(behind - before)))
+    return tuple(found)
 
 
 def _thickness(shape: Shape, x: Array) -> Array:
