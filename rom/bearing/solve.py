@@ -4,7 +4,7 @@ import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,32 +17,28 @@ from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
 from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, converted, under_load
 from roughfilm.rom.bearing.film import Searched, smooth_films
-from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs, density_ratio
+from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.bearing.totals.reported import in_order
 from roughfilm.rom.bearing.totals.whole import whole_bearing
-from roughfilm.rom.bearing.uncertainty import POSITIONS, grid_sequence, uncertainties
+from roughfilm.rom.bearing.uncertainty import POSITIONS, uncertainties
 from roughfilm.rom.bearing.warnings import (
-    grid_warnings,
     pressure_warnings,
     rupture_warnings,
     scene_warnings,
     window_warnings,
 )
-from roughfilm.rom.cavitation.discretise import Ends
+from roughfilm.rom.cavitation.evaluation.filling import density_ratio
+from roughfilm.rom.cavitation.evaluation.grids import grid_sequence, grid_warnings
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.cavitation.solve import Level, Solution
+from roughfilm.rom.cavitation.solve import Level, Solution, load_loops
 from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, Numerics, Result, SolverRun, with_uncertainties
-
-WARM_UP_CELLS = 40
-"""Number of cells of a film on which every compiled loop runs once."""
 
 FilmsOnGrid = Callable[[Bearing, int], SeparableBearing[Any]]
 """films(scene, cells), the films of a model on a grid of so many cells along and across."""
@@ -242,14 +238,6 @@ def origin_of(roughness: FactorsOverGap | None) -> dict[str, Any]:
     """The entry "table" of provenance for flow factors of a table that was made for the result or kept from others."""
     origin = getattr(roughness, "origin", None)
     return {"table": dict(origin)} if origin else {}
-
-
-@cache
-def load_loops(wide: bool) -> None:
-    """Compile or load the compiled loops once in a process, so that they do not count in the time of a film."""
-    shape = Shape(thickness=lambda x, y: 1e-6 * (2 - x) + 0 * y, breaks=(0.0, 1.0), wide=wide)
-    ends = Ends(sides=None if wide else (0.0, 0.0))
-    balance(Problem(shape=shape, ends=ends, speed=1.0, viscosity=1.0), (WARM_UP_CELLS, WARM_UP_CELLS))
 
 
 def _fields(scene: Bearing, solution: Solution, more: Fields) -> dict[str, Field]:

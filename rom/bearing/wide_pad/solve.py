@@ -10,14 +10,14 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.timing import working_time
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE
 from roughfilm.rom.bearing.quantities import EXACT
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.totals.reported import in_order
-from roughfilm.rom.bearing.uncertainty import MAX_GRID_RATIO, grid_uncertainty
 from roughfilm.rom.bearing.warnings import rupture_warnings
 from roughfilm.rom.bearing.wide_pad.gap import pad_gap
 from roughfilm.rom.bearing.wide_pad.quantities import pad_quantities
+from roughfilm.rom.cavitation.evaluation.grids import MAX_GRID_RATIO, grid_uncertainty
+from roughfilm.rom.cavitation.shape import CELLS_PER_FEATURE
 from roughfilm.rom.ladder.model import Effect, Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
