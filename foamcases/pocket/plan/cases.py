@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
+from roughfilm.foamcases.openfoam.one_flow import Run
 from roughfilm.foamcases.pocket.card import Card
 from roughfilm.foamcases.pocket.plan.fields import read_cell
-from roughfilm.foamcases.pocket.run import Run
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun
