@@ -1,0 +1,1 @@
+"""Films over dimples: textures in three dimensions."""
