@@ -169,7 +169,7 @@ def _of_the_whole(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]
     return (f"{line}; the whole bearing carries {carried}",)
 
 
-def omitted(scene: Bearing, quantity: str) -> Omission | None:
+def omitted(scene: Bearing, _model: Any, quantity: str) -> Omission | None:
     """The first-order effect of inertia; None without a density, or if the film does not converge."""
     from roughfilm.rom.bearing.omission import inertia_omitted  # slow to import
 
