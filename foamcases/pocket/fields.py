@@ -10,7 +10,7 @@ from roughfilm.contact.foundation.arrays import Array, finite_arithmetic
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.fields import internal_field, last_fields, points
-from roughfilm.foamcases.pocket.case import Card
+from roughfilm.foamcases.pocket.card import Card
 from roughfilm.foamcases.pocket.mesh.cells import centres
 
 

@@ -8,7 +8,6 @@ from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.iterate import Try
 from roughfilm.foamcases.openfoam.kept import release_of, wall_time
 from roughfilm.foamcases.openfoam.program import Ended
-from roughfilm.foamcases.openfoam.residuals import Judged
 from roughfilm.foamcases.openfoam.run import (
     CaseRun,
     Checked,
@@ -19,7 +18,7 @@ from roughfilm.foamcases.openfoam.run import (
     ready,
     remarks,
 )
-from roughfilm.foamcases.pocket.case import Card
+from roughfilm.foamcases.pocket.card import Card
 from roughfilm.rom.ladder.model import Progress, silent
 
 
@@ -54,7 +53,7 @@ def run_case(directory: Path, progress: Progress = silent) -> Run:
     version = ready(directory, card.dialect, card.processes)
     wall = time.perf_counter()
     mesh = check_mesh(directory)
-    checked = converge(directory, card, Judged(), progress)
+    checked = converge(directory, card, card.criteria, progress, card.settled(directory))
     return _run(mesh, checked, time.perf_counter() - wall, version)
 
 
@@ -63,7 +62,7 @@ def kept_run(directory: Path) -> Run:
     card = read_card(directory, Card)
     version = release_of(directory, card.dialect)
     mesh = kept_mesh(directory)
-    checked = kept_flow(directory, card, Judged())
+    checked = kept_flow(directory, card, card.criteria, card.settled(directory))
     return _run(mesh, checked, wall_time(directory), version)
 
 
