@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from roughfilm.foamcases.openfoam.iterate import Asked, Try
+from roughfilm.foamcases.openfoam.iterate import Asked, Settled, Try
 from roughfilm.foamcases.openfoam.kept import release_of, wall_time
 from roughfilm.foamcases.openfoam.program import Ended
 from roughfilm.foamcases.openfoam.residuals import Judged
@@ -50,8 +50,10 @@ class Run(CaseRun):
     tries: tuple[Try, ...]
 
 
-def run_flow(directory: Path, card: Written, judged: Judged, progress: Progress) -> Run:
+def run_flow(directory: Path, card: Written, judged: Judged, progress: Progress, settled: Settled | None = None) -> Run:
     """Check the mesh, run :func:`roughfilm.foamcases.openfoam.iterate.iterate`, and verify the fields on disk.
+
+    Residuals end the run, or the test ``settled`` if there is one.
 
     Raises
     ------
@@ -66,15 +68,15 @@ def run_flow(directory: Path, card: Written, judged: Judged, progress: Progress)
     version = ready(directory, card.dialect, card.processes)
     wall = time.perf_counter()
     mesh = check_mesh(directory)
-    checked = converge(directory, card, judged, progress)
+    checked = converge(directory, card, judged, progress, settled)
     return _run(mesh, checked, time.perf_counter() - wall, version)
 
 
-def kept_flow_run(directory: Path, card: Written, judged: Judged) -> Run:
+def kept_flow_run(directory: Path, card: Written, judged: Judged, settled: Settled | None = None) -> Run:
     """Read the run of a case that its script ``Allrun`` ran; errors as those of :func:`run_flow`, save OpenFOAM's."""
     version = release_of(directory, card.dialect)
     mesh = kept_mesh(directory)
-    checked = kept_flow(directory, card, judged)
+    checked = kept_flow(directory, card, judged, settled)
     return _run(mesh, checked, wall_time(directory), version)
 
 
