@@ -1,7 +1,7 @@
 """The kind of scene "bearing": load and friction of a film with cavitation."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -169,14 +169,18 @@ def _of_the_whole(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]
     return (f"{line}; the whole bearing carries {carried}",)
 
 
-def omitted(scene: Bearing, _model: Any, quantity: str) -> Omission | None:
-    """The first-order effect of inertia; None without a density, or if the film does not converge."""
+def omitted(scene: Bearing, models: Sequence[Any], quantity: str) -> Mapping[str, Omission]:
+    """The first-order effect of inertia, the same for all models.
+
+    There is none without a density, or if the film does not converge.
+    """
     from roughfilm.rom.bearing.omission import inertia_omitted  # slow to import
 
     try:
-        return inertia_omitted(scene, quantity)
+        found = inertia_omitted(scene, quantity)
     except ConvergenceError:
-        return None
+        return {}
+    return {} if found is None else {model.name: found for model in models}
 
 
 def window(scene: Bearing) -> Surface | None:
