@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
+import numpy as np
 
 from roughfilm.foamcases.pocket.card import Card
 from roughfilm.foamcases.pocket.plan.fields import read_cell
@@ -10,11 +10,15 @@ from roughfilm.foamcases.pocket.run import Run
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun
+from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 
 MAX_IMBALANCE = 0.005
 """Largest difference of the drags on both walls, over that on the sliding wall, without a warning."""
+
+MIN_COLUMNS = 2.0
+"""Least extent of a dimple or ramp over the width of the narrowest columns without a warning."""
 
 
 def read_plan(solver: Model[Pocket], scene: Pocket, directory: Path, card: Card, run: Run) -> Result:
@@ -32,11 +36,15 @@ def read_plan(solver: Model[Pocket], scene: Pocket, directory: Path, card: Card,
     )
     lowest, highest = flow.pressure_range()
     imbalance = flow.imbalance()
-    unbalanced = (
-        (f"the drags on both walls differ by {imbalance:.1%}; the mesh is too coarse or skew",)
-        if imbalance > MAX_IMBALANCE
-        else ()
-    )
+    remarks = []
+    if imbalance > MAX_IMBALANCE:
+        remarks.append(f"the drags on both walls differ by {imbalance:.1%}; the mesh is too coarse or skew")
+    column = film * min(np.diff(x).min(), np.diff(y).min())
+    if plan.smallest < MIN_COLUMNS * column:
+        remarks.append(
+            f"the least extent of a dimple or of the ramp at its rim, {plan.smallest:.3g} m, is below {MIN_COLUMNS:g} "
+            f"of the narrowest columns, {column:.3g} m: its wall is not resolved; take more columns or a wider edge"
+        )
     return Result(
         model=solver.name,
         quantities=plan_quantities(scene, wall, backflow=flow.back_flow(), pressure_range=(lowest, highest)),
@@ -76,5 +84,5 @@ def read_plan(solver: Model[Pocket], scene: Pocket, directory: Path, card: Card,
         provenance=provenance(
             scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources, openfoam=run.version
         ),
-        warnings=(*cautions(scene), *ruptures(scene, lowest - wall.edge_mean), *unbalanced, *run.warnings),
+        warnings=(*cautions(scene), *ruptures(scene, lowest - wall.edge_mean), *remarks, *run.warnings),
     )
