@@ -1,1 +1,1 @@
-"""Films over dimples: textures in three dimensions."""
+"""Dimples in three dimensions: the best depth and covered part for load, by every model."""
