@@ -123,7 +123,9 @@ def set_entry(
     table: Any = entries
     for depth, part in enumerate(path):
         if isinstance(table, list):
-            table = _chosen(table, part, f"set {override}: got {part!r} as a number in the list {'.'.join(path[:depth])!r}")
+            table = _chosen(
+                table, part, f"set {override}: got {part!r} as a number in the list {'.'.join(path[:depth])!r}"
+            )
         else:
             table = table.setdefault(part, {})
         if not isinstance(table, dict | list):

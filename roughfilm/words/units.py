@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 from roughfilm.contact.foundation.rounding import TWO_DIGIT_MANTISSA
 from roughfilm.contact.foundation.units import Quantity
@@ -61,6 +62,9 @@ SCALES: Mapping[str, Scales] = {
 }
 """Sizes of the units in which a quantity is shown, in its SI unit, with their names; the smallest first."""
 
+ROUND_OFF = 1e-12
+"""Magnitude over the largest one of the same unit in a result below which a value is round-off."""
+
 BARE = 1e-4
 """Size of the unit of plain dimensionless numbers above this; it only chooses the unit."""
 
@@ -79,6 +83,25 @@ def scale_of(unit: str, size: float) -> tuple[float, str]:
     neutral = next((one for one in scales if one[1] == "" or one[0] == 1.0), scales[-1])
     chosen = next((one for one in reversed(scales) if one[0] <= size * (1 + 1e-9)), scales[0]) if size > 0 else neutral
     return (1.0, "") if chosen == (BARE, "") else chosen
+
+
+def without_round_off(quantities: Mapping[str, Quantity]) -> dict[str, Quantity]:
+    """The quantities of a result, those that are round-off with the value 0.
+
+    Examples
+    --------
+    >>> found = without_round_off({"load": Quantity(value=4e-12, unit="Pa"), "p": Quantity(value=1e4, unit="Pa")})
+    >>> found["load"].value, found["p"].value
+    (0.0, 10000.0)
+    """
+    largest: dict[str, float] = {}
+    for one in quantities.values():
+        if math.isfinite(one.value):
+            largest[one.unit] = max(largest.get(one.unit, 0.0), abs(one.value))
+    return {
+        name: replace(one, value=0.0) if abs(one.value) < ROUND_OFF * largest.get(one.unit, 0.0) else one
+        for name, one in quantities.items()
+    }
 
 
 def in_engineering_unit(quantity: Quantity) -> tuple[str, str, str]:
