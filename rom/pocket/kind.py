@@ -131,7 +131,7 @@ def remarks(entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> 
     return (ZERO_IN_PLAN,) if "dimples" in entries["geometry"] else ()
 
 
-def omitted(scene: Pocket, quantity: str) -> Omission | None:
+def omitted(scene: Pocket, _model: Any, quantity: str) -> Omission | None:
     """The effect of cavitation; None if the film does not rupture."""
     from roughfilm.rom.pocket.omission import rupture_omitted  # slow to import
 

@@ -2,14 +2,13 @@
 
 from pathlib import Path
 
-from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
-
+from roughfilm.foamcases.openfoam.one_flow import Run
 from roughfilm.foamcases.pocket.card import Card
 from roughfilm.foamcases.pocket.plan.fields import read_cell
-from roughfilm.foamcases.pocket.run import Run
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun
+from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 

@@ -8,8 +8,8 @@ import pytest
 from places import SCENES
 
 from roughfilm.ladder import find
-from roughfilm.rom.bearing.quantities import peak_pressure
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
+from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.cavitation.solve import solve as balance
