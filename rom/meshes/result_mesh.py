@@ -26,7 +26,8 @@ def result_mesh(result: Result) -> Mesh:
     A result with ``vertices``, (nx+1, ny+1, 2) or (nx+1, ny+1, nz+1, 3), gives quadrilaterals or hexahedra with all
     fields of shape (nx, ny, ...) or (nx, ny, nz, ...), without the cells where ``kept``, (nx, ny), is 0. A result with
     ``x`` and ``y``, (nx, ny), gives quadrilaterals between these points (x in rad is an angle, y the radius), or lines
-    if ny = 1; that of a cell in plan gives the columns whose middles they are, over the whole cell. A dry contact, a seal or a rough gap gives quadrilaterals over one period of its surface.
+    if ny = 1; for a cell in plan these points are the middles of the quadrilaterals. A dry contact, a seal or a rough
+    gap gives quadrilaterals over one period of its surface.
 
     Raises
     ------

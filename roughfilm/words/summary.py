@@ -36,7 +36,7 @@ def value_of(result: Result, quantity: str) -> str:
     title, shown = f"{kind.titles[quantity]}{of_all}", without_round_off(result.quantities)[name]
     size, unit = scale_of(shown.unit, abs(shown.value))
     own = result[quantity]
-    relative = math.nan if own.uncertainty is None or own.value == 0 else own.uncertainty / abs(own.value)
+    relative = math.nan if own.uncertainty is None or shown.value == 0 else own.uncertainty / abs(own.value)
     bar = f" ± {percent(relative)}" if relative >= LEAST_STATED else ""
     return f"{title} {digits(shown.value / size)}{unit and f' {unit}'}{bar}"
 

@@ -65,6 +65,9 @@ SCALES: Mapping[str, Scales] = {
 ROUND_OFF = 1e-12
 """Magnitude over the largest one of the same unit in a result below which a value is round-off."""
 
+BOUND = 1e-6
+"""The bound of an uncertainty that is round-off, over the unit."""
+
 BARE = 1e-4
 """Size of the unit of plain dimensionless numbers above this; it only chooses the unit."""
 
@@ -102,6 +105,26 @@ def without_round_off(quantities: Mapping[str, Quantity]) -> dict[str, Quantity]
         name: replace(one, value=0.0) if abs(one.value) < ROUND_OFF * largest.get(one.unit, 0.0) else one
         for name, one in quantities.items()
     }
+
+
+def in_engineering_units(quantities: Mapping[str, Quantity]) -> dict[str, tuple[str, str, str]]:
+    """The values, uncertainties and units of the quantities of a result, as texts, from :func:`in_engineering_unit`.
+
+    A value and an uncertainty that are both round-off are written in the unit of the largest value of their dimension.
+
+    Examples
+    --------
+    >>> load = Quantity(value=4e-12, unit="Pa", uncertainty=1e-10)
+    >>> in_engineering_units({"load": load, "pressure": Quantity(value=2e4, unit="Pa")})["load"]
+    ('0', '<0.000001', 'kPa')
+    """
+    cleared = without_round_off(quantities)
+    found = {name: in_engineering_unit(one) for name, one in cleared.items()}
+    for name, one in cleared.items():
+        largest = max(abs(other.value) for other in cleared.values() if other.unit == one.unit)
+        if one.value == 0 != quantities[name].value and (one.uncertainty or math.inf) < BOUND / 1e3 * largest:
+            found[name] = ("0", f"<{BOUND:f}", scale_of(one.unit, largest)[1])
+    return found
 
 
 def in_engineering_unit(quantity: Quantity) -> tuple[str, str, str]:

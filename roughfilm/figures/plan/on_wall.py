@@ -36,12 +36,12 @@ def pressure_along(scene: Pocket, results: Mapping[str, Result], reference: str,
     for name, result in results.items():
         style = styles.get(name, Style())
         x, p = along(scene, result, "pressure", y)
-        look = {"linestyle": style.line, "color": style.colour, "linewidth": 2}
-        axes.plot(x / of_length.factor, p / scale.factor, label=name, **look)
+        line: dict[str, Any] = {"linestyle": style.line, "color": style.colour, "linewidth": 2}
+        axes.plot(x / of_length.factor, p / scale.factor, label=name, **line)
+    dashed: dict[str, Any] = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 3)), "alpha": 0.6}
     for number, edge in enumerate(edges_on(scene, y)):
         label = None if number else "edges of the dimple" + ("s" if len(edges_on(scene, y)) > 2 else "")
-        look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 3)), "alpha": 0.6}
-        axes.axvline(edge / of_length.factor, label=label, **look)
+        axes.axvline(edge / of_length.factor, label=label, **dashed)
     axes.set(xlabel=of_length.label("position x along the sliding"), ylabel=scale.label(f"pressure at y = {_at(y)}"))
     figure.legend(loc="outside upper center", ncols=4, fontsize=8)
     figure.align_ylabels()
@@ -62,7 +62,7 @@ def maps(scene: Pocket, results: Mapping[str, Result], reference: str) -> Plot:
     bar = None if uncertainty is None else uncertainty * scene.pressure_unit / scene.plus_factor
     found = differences(pressures, reference, "pressure on the sliding wall", of_pressure, bar)
     rows = -(-len(found.drawn) // MAX_COLUMNS)
-    ratio = min(max(scene.geometry.breadth / scene.geometry.length, 0.3), 2.0)
+    ratio = min(max(scene.plan().breadth / scene.geometry.length, 0.3), 2.0)
     height = 0.9 + 2.1 * ratio
     figure = Figure(
         figsize=(10, height * (1 + rows)), layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08, compress=True)

@@ -4,7 +4,8 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.ladder.result import Result
-from roughfilm.rom.pocket.plan.geometry import PlanGeometry
+from roughfilm.rom.pocket.plan.dimples import Dimple
+from roughfilm.rom.pocket.plan.geometry import SAME, PlanGeometry
 from roughfilm.rom.pocket.scene import Pocket
 
 SAMPLES = 1201
@@ -14,16 +15,21 @@ MIN_DEPTH = 1e-3
 """Smallest depth that counts as a part of a dimple, over the greatest depth."""
 
 
-def middle_line(scene: Pocket) -> float:
-    """The position y, m, of a line along the cell: through the middle of the deepest dimple, the one nearest to y = 0.
-
-    It is y = 0 for a single dimple in the middle of the cell.
-    """
+def deepest_dimple(scene: Pocket) -> tuple[Dimple, float, float]:
+    """The deepest dimple and the position of its middle in the cell, m; of several the one nearest to y = 0."""
     geometry = scene.geometry
     assert isinstance(geometry, PlanGeometry)
-    deepest = [place for one, _, place in geometry.places() if one.greatest_depth >= (1 - 1e-9) * geometry.depth]
-    moved = [place - geometry.breadth * round(place / geometry.breadth) for place in deepest]
-    return min(moved, key=abs)
+    found = [
+        (one, x - geometry.length * round(x / geometry.length), y - geometry.breadth * round(y / geometry.breadth))
+        for one, x, y in geometry.places()
+        if one.greatest_depth >= (1 - SAME) * geometry.depth
+    ]
+    return min(found, key=lambda place: (abs(place[2]), abs(place[1])))
+
+
+def middle_line(scene: Pocket) -> float:
+    """The position y, m, of the line along the cell through the middle of the deepest dimple."""
+    return deepest_dimple(scene)[2]
 
 
 def edges_on(scene: Pocket, y: float) -> tuple[float, ...]:

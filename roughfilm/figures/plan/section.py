@@ -48,11 +48,12 @@ def in_section(scene: Pocket, result: Result) -> tuple[Array, Array, Array]:
     z : heights of the middles of the cells and of both walls, shape (nx, nz + 2).
     velocity : velocity along x and z there, m/s, shape (nx, nz + 2, 2).
     """
-    vertices, cells = result.fields["vertices"].values, result.fields["cell_velocity"].values
-    corners = (vertices[:-1, :-1] + vertices[1:, :-1] + vertices[:-1, 1:] + vertices[1:, 1:]) / 4
-    places = corners[:, :, -1, 1].mean(axis=0)
-    faces = between(places, corners, middle_line(scene), scene.plan().breadth)
-    flow = between(places, cells, middle_line(scene), scene.plan().breadth)[..., [0, 2]]
+    line, breadth = middle_line(scene), scene.plan().breadth
+    vertices, cells = result.fields["vertices"].values[:, :-1], result.fields["cell_velocity"].values
+    rows = vertices[0, :, -1, 1]
+    edges = between(rows, vertices, line, breadth)
+    faces = (edges[:-1] + edges[1:]) / 2
+    flow = between((rows + np.append(rows[1:], breadth / 2)) / 2, cells, line, breadth)[..., [0, 2]]
     heights = np.concatenate([faces[:, :1, 2], (faces[:, 1:, 2] + faces[:, :-1, 2]) / 2, faces[:, -1:, 2]], axis=1)
     walls = np.zeros((len(flow), 1, 2)), np.tile([scene.speed, 0.0], (len(flow), 1, 1))
     return faces[:, -1, 0], heights, np.concatenate([walls[0], flow, walls[1]], axis=1)

@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.figures.plan.places import middle_line
+from roughfilm.figures.plan.places import deepest_dimple, middle_line
 from roughfilm.figures.rendering import scalar_bar, write_picture
 from roughfilm.figures.spatial.relief import white_plotter
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import read_scene
-from roughfilm.rom.pocket.plan.geometry import PlanGeometry
 from roughfilm.rom.pocket.scene import Pocket
 
 if TYPE_CHECKING:
@@ -69,15 +68,7 @@ def film_around(scene: Pocket, result: Result) -> "pyvista.StructuredGrid":
 
 def _window(scene: Pocket, vertices: Array) -> tuple[tuple[int, int], tuple[int, int]]:
     """The first and the last numbers of the vertices along x and y around the deepest dimple, in the cell."""
-    geometry = scene.geometry
-    assert isinstance(geometry, PlanGeometry)
-    line, sides = middle_line(scene), (geometry.length, geometry.breadth)
-    places = [
-        (one, *(place - side * round(place / side) for place, side in zip(middle, sides, strict=True)))
-        for one, *middle in geometry.places()
-        if one.greatest_depth >= (1 - 1e-9) * geometry.depth
-    ]
-    dimple, x, y = min(places, key=lambda place: (abs(place[2] - line), abs(place[1])))
+    dimple, x, y = deepest_dimple(scene)
     first, last = [], []
     for axis, (middle, half) in enumerate(zip((x, y), dimple.half_spans, strict=True)):
         faces = (vertices[:, 0, -1, 0], vertices[0, :, -1, 1])[axis]
@@ -103,7 +94,7 @@ def _add(plotter: "pyvista.Plotter", scene: Pocket, film: "pyvista.StructuredGri
     limit = float(f"{np.abs(film[PRESSURE]).max():.2g}")
     look: dict[str, Any] = {"cmap": "RdBu_r", "clim": (-limit, limit), "opacity": 0.75, "lighting": False}
     places = {PRESSURE: ((0.06, 0.01), 5, 0 if limit >= 20 else 2), SPEED: ((0.54, 0.01), 6, 1)}
-    bars = {
+    bars: dict[str, Any] = {
         name: {**scalar_bar(place, (0.4, 0.07), labels=labels, digits=digits), "title": name}
         for name, (place, labels, digits) in places.items()
     }
@@ -142,7 +133,8 @@ def _streamlines(film: "pyvista.StructuredGrid", points: Array, middle: int) -> 
     inside = flow.streamlines_from_source(
         pyvista.PolyData(_in_dimple(points, middle)), integration_direction="both", max_length=0.7 * film.length, **look
     )
-    return over + inside
+    lines: pyvista.PolyData = over + inside
+    return lines
 
 
 def _upstream(points: Array, middle: int) -> Array:

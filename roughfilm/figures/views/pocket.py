@@ -27,6 +27,7 @@ MIN_PERCENT = 1e-3
 STYLES = {
     "reynolds": Style(colour="#7f7f7f", line="--", marker="s"),
     "inertial_reynolds": Style(colour="#e08214", line="-.", marker="D"),
+    "reynolds_cavitating": Style(colour="#8c510a", line=(0, (1, 1)), marker="X"),
     "film": Style(colour="#b2182b", line=(0, (5, 1)), marker="v"),
     "film_slope": Style(colour="#762a83", line=(0, (3, 1, 1, 1)), marker="P"),
     "stokes": Style(colour="#5aae61", line=":", marker="^"),
