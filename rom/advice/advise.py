@@ -17,7 +17,7 @@ from roughfilm.rom.advice.estimates import (
 from roughfilm.rom.advice.laws import Numbers, Table, lawful, table
 from roughfilm.rom.advice.stated import StatedError, percent
 from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_scene
-from roughfilm.rom.ladder.model import Model, Progress, best, silent
+from roughfilm.rom.ladder.model import Model, Progress, best_for, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
@@ -233,7 +233,7 @@ def advise(
         numbers=kind.numbers(scene),
         run=solved,
         failed=failed,
-        omitted=_omitted(scene, models, quantity),
+        omitted=_omitted(scene, [model for model in models if fits[model.name].applies], quantity),
         within=within,
     )
     if not task.models:
@@ -309,7 +309,7 @@ def _most_complete(task: AdviceTask, judged: Sequence[ModelVerdict]) -> ModelVer
     failing = (Verdict.NOT_HERE, Verdict.FAILED)
     by_name = {one.model: one for one in judged if one.verdict not in failing}
     here = [model for model in task.models if model.name in by_name and model.available().available]
-    return by_name[best(here).name] if here else None
+    return by_name[best_for(task.scene, here).name] if here else None
 
 
 def _better(one: ModelVerdict, other: ModelVerdict) -> bool:
