@@ -1,7 +1,7 @@
 """The kind of scene "bearing": load and friction of a film with cavitation."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -169,14 +169,15 @@ def _of_the_whole(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]
     return (f"{line}; the whole bearing carries {carried}",)
 
 
-def omitted(scene: Bearing, model: Any, quantity: str) -> Omission | None:
-    """The effects that a model leaves out and the laws do not count; None if they are unknown, or no film converges."""
-    from roughfilm.rom.bearing.omission import omitted  # slow to import
+def omitted(scene: Bearing, models: Sequence[Any], quantity: str) -> Mapping[str, Omission]:
+    """The effects that each model leaves out and the laws do not count; none are known if no film converges."""
+    from roughfilm.rom.bearing.omission import omission  # slow to import
 
     try:
-        return omitted(scene, model, quantity)
+        found = {model.name: omission(scene, model, quantity) for model in models}
     except ConvergenceError:
-        return None
+        return {}
+    return {name: one for name, one in found.items() if one is not None}
 
 
 def missing(scene: Bearing, model: Any) -> float:

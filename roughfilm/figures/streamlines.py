@@ -1,4 +1,4 @@
-"""Streamlines and speed in and above grooves: python -m roughfilm.figures.streamlines RESULT.h5 PICTURE.png."""
+"""Streamlines and speed over grooves or dimples: python -m roughfilm.figures.streamlines RESULT.h5 PICTURE.png."""
 
 import sys
 from pathlib import Path
@@ -7,6 +7,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.rendering import scalar_bar, write_picture
+from roughfilm.figures.spatial.dimples import draw as draw_dimples
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
 
@@ -55,10 +56,13 @@ def shown(vertices: Array) -> slice:
 
 
 def draw(result: Result, picture: Path) -> None:
-    """Draw one PNG: colour is speed relative to the sliding wall's, lines are streamlines."""
+    """Draw one PNG: colour is speed relative to the sliding wall's, lines are streamlines. Dimples are in space."""
     import pyvista
 
     vertices = result.fields["vertices"].values
+    if vertices.shape[-1] == 3:
+        draw_dimples(result, picture)
+        return
     velocity = result.fields["cell_velocity"].values
     sliding_speed = float(np.abs(velocity[:, -1, 0]).max())
     x, y = vertices[..., 0] * 1e6, vertices[..., 1] * 1e6
