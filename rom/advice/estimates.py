@@ -47,11 +47,14 @@ class Estimate:
     source: str = BY_LAWS
     difference: float | None = None
 
-    def stated(self, omitted: float = 0.0) -> StatedError:
+    def stated(self, omitted: Omission | None = None) -> StatedError:
         """The error as it is stated, with the part of the effect that the laws do not count."""
-        error = self.error + omitted
+        part = 0.0 if omitted is None else omitted.part
+        error = self.error + part
         beyond = None if self.difference is None else error - abs(self.difference)
-        return StatedError(error=error, source=self.source, difference=self.difference, uncertainty=beyond)
+        mostly = omitted is not None and omitted.source and part > self.error and self.difference is None
+        source = omitted.source if omitted is not None and mostly else self.source
+        return StatedError(error=error, source=source, difference=self.difference, uncertainty=beyond)
 
 
 @dataclass(frozen=True, kw_only=True)
