@@ -104,7 +104,7 @@ def write_dictionaries(
             relaxation=relaxation,
             coarsest=20,
             velocity_gain=0.01,
-            controlled=("p", "U") if functions is None else (),
+            controlled=None if functions is None else {},
         ),
         "system/decomposeParDict": (
             "dictionary",
@@ -262,7 +262,7 @@ def solution(
     relaxation: float,
     coarsest: int,
     velocity_gain: float,
-    controlled: tuple[str, ...] = ("p", "U"),
+    controlled: Mapping[str, float] | None = None,
 ) -> Dictionary:
     """The dictionary ``system/fvSolution`` for SIMPLEC.
 
@@ -274,7 +274,7 @@ def solution(
     relaxation : the relaxation of velocity.
     coarsest : the number of cells on multigrid's coarsest level.
     velocity_gain : the linear solver's last residual of velocity over its first one, at which it may stop.
-    controlled : the fields whose residuals must meet the tolerance.
+    controlled : residual that each of some fields must reach to end the run; None for the tolerance of ``p`` and ``U``.
     """
     return (
         "dictionary",
@@ -299,7 +299,7 @@ def solution(
                 "nNonOrthogonalCorrectors": 0,
                 "pRefCell": 0,
                 "pRefValue": 0,
-                "residualControl": dict.fromkeys(controlled, tolerance),
+                "residualControl": {"p": tolerance, "U": tolerance} if controlled is None else controlled,
             },
             "relaxationFactors": {
                 "fields": {"p": dialect.pressure_relaxation(relaxation)},

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from roughfilm.foamcases.openfoam.iterate import Settled
+from roughfilm.foamcases.openfoam.relaxation import velocity_relaxation
 from roughfilm.foamcases.openfoam.residuals import FIELDS, Judged
 from roughfilm.foamcases.openfoam.settling import settled_within
 
@@ -11,12 +12,6 @@ LAYERS_PER_COLUMN = 1 / 5
 """Number of cells across the film over the number along it."""
 
 MIN_LAYERS = 4
-
-UNRELAXED_COLUMNS = 12.0
-"""Product of the number of columns and 1 less the relaxation of velocity, at which runs need the fewest iterations."""
-
-MIN_RELAXATION = 0.85
-"""Least relaxation of velocity in SIMPLEC over grooves."""
 
 UNRELAXED_LAYERS = 2.0
 """Product of the number of layers and 1 less the relaxation, at which runs of a cell in plan need the fewest."""
@@ -59,7 +54,7 @@ class Card:
         """The relaxation of velocity in SIMPLEC, which is nearer to 1 for smaller cells."""
         if self.rows:
             return max(MIN_PLAN_RELAXATION, 1 - UNRELAXED_LAYERS / self.layers)
-        return max(MIN_RELAXATION, 1 - UNRELAXED_COLUMNS / self.columns)
+        return velocity_relaxation(self.columns)
 
     @property
     def criteria(self) -> Judged:

@@ -2,17 +2,15 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.foamcases.conformal.orthogonal import orthogonal
 from roughfilm.foamcases.openfoam.allrun import allrun
-from roughfilm.foamcases.openfoam.block_mesh import write_block
+from roughfilm.foamcases.openfoam.block_mesh import in_space, write_block
 from roughfilm.foamcases.openfoam.case_directory import write_papers, write_whole, written_for
 from roughfilm.foamcases.openfoam.dialect import Dialect
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, write_dictionaries, write_second_try
 from roughfilm.foamcases.openfoam.residuals import Judged
 from roughfilm.foamcases.pocket.card import Card, layers_of
-from roughfilm.foamcases.pocket.mesh.orthogonal import orthogonal
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.pocket.scene import Pocket
 
@@ -35,8 +33,7 @@ def vertices_of(scene: Pocket, resolution: int) -> Array:
     scene : the pocket scene.
     resolution : number of columns along the film, about; there are a fifth as many layers, and at least 4.
     """
-    plane = orthogonal(scene.gap(), resolution, layers_of(resolution))
-    return np.stack([np.pad(plane, ((0, 0), (0, 0), (0, 1)), constant_values=z) for z in (0.0, 1.0)], axis=2)
+    return in_space(orthogonal(scene.gap(), resolution, layers_of(resolution)))
 
 
 def write_case(

@@ -136,7 +136,7 @@ def gap_dictionaries(
             relaxation=relaxation,
             coarsest=COARSEST,
             velocity_gain=VELOCITY_GAIN,
-            controlled=("p", "U") if {*moving} == {*FIELDS} else (),
+            controlled=None if {*moving} == {*FIELDS} else {},
         ),
         "system/decomposeParDict": (
             "dictionary",

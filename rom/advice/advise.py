@@ -17,7 +17,7 @@ from roughfilm.rom.advice.estimates import (
 from roughfilm.rom.advice.laws import Numbers, Table, lawful, table
 from roughfilm.rom.advice.stated import StatedError, percent
 from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_scene
-from roughfilm.rom.ladder.model import Model, Progress, best, silent
+from roughfilm.rom.ladder.model import Model, Progress, best_for, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
@@ -233,7 +233,7 @@ def advise(
         numbers=kind.numbers(scene),
         run=solved,
         failed=failed,
-        omitted=kind.omitted(scene, models, quantity),
+        omitted=_omitted(scene, [model for model in models if fits[model.name].applies], quantity),
         within=within,
     )
     if not task.models:
@@ -266,6 +266,13 @@ def advise(
         spent_cpu_s=sum(result.numerics.cpu_s for result in known.values()),
         omitted=task.omitted,
     )
+
+
+def _omitted(scene: Scene, models: Sequence[Model], quantity: str) -> dict[str, Omission]:
+    """The effects that the models leave out and that the laws do not count, by model."""
+    kind = kind_of_scene(scene)
+    found = {model.name: kind.omitted(scene, model, quantity) for model in models}
+    return {name: omission for name, omission in found.items() if omission is not None}
 
 
 def _judged(task: AdviceTask) -> list[ModelVerdict]:
@@ -302,7 +309,7 @@ def _most_complete(task: AdviceTask, judged: Sequence[ModelVerdict]) -> ModelVer
     failing = (Verdict.NOT_HERE, Verdict.FAILED)
     by_name = {one.model: one for one in judged if one.verdict not in failing}
     here = [model for model in task.models if model.name in by_name and model.available().available]
-    return by_name[best(here).name] if here else None
+    return by_name[best_for(task.scene, here).name] if here else None
 
 
 def _better(one: ModelVerdict, other: ModelVerdict) -> bool:

@@ -8,7 +8,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Un
 from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid
 from roughfilm.rom.advice.stated import BY_ITS_RUN, BY_LAWS, StatedError
 from roughfilm.rom.ladder.kind import Kind, Omission, Scene
-from roughfilm.rom.ladder.model import Model, best, find
+from roughfilm.rom.ladder.model import Model, best_for, find
 from roughfilm.rom.ladder.result import Result
 
 MAX_COST_OF_BEST = 0.01
@@ -326,7 +326,7 @@ def affordable(task: AdviceTask, pairs: Sequence[tuple[Model, int]]) -> set[tupl
     The pairs are taken in order of cost, as long as all runs together cost at most ``BUDGET`` of the best model here at
     its finest usual resolution. That run itself is always affordable. The choice does not depend on the tolerance.
     """
-    top = best([model for model in task.models if model.available().available] or task.models)
+    top = best_for(task.scene, [model for model in task.models if model.available().available] or task.models)
     finest = max(task.resolutions(top))
     left = BUDGET * task.cost(top, finest)
     paid = {(top.name, finest)}
@@ -369,7 +369,7 @@ def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estima
 
 def _cheap(task: AdviceTask, check: float, cost: float) -> bool:
     """Whether a check of this cost is cheap compared with the best model, or with the checked model of this cost."""
-    top = best(task.models)
+    top = best_for(task.scene, task.models)
     return check <= max(MAX_COST_OF_BEST * task.cost(top, top.resolution_of(task.scene)), MAX_COST_OF_MODEL * cost)
 
 

@@ -1,7 +1,7 @@
 """The kind of scene "bearing": load and friction of a film with cavitation."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -169,18 +169,21 @@ def _of_the_whole(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]
     return (f"{line}; the whole bearing carries {carried}",)
 
 
-def omitted(scene: Bearing, models: Sequence[Any], quantity: str) -> Mapping[str, Omission]:
-    """The first-order effect of inertia, the same for all models.
-
-    There is none without a density, or if the film does not converge.
-    """
-    from roughfilm.rom.bearing.omission import inertia_omitted  # slow to import
+def omitted(scene: Bearing, model: Any, quantity: str) -> Omission | None:
+    """The effects that a model leaves out and the laws do not count; None if they are unknown, or no film converges."""
+    from roughfilm.rom.bearing.omission import omitted  # slow to import
 
     try:
-        found = inertia_omitted(scene, quantity)
+        return omitted(scene, model, quantity)
     except ConvergenceError:
-        return {}
-    return {} if found is None else {model.name: found for model in models}
+        return None
+
+
+def missing(scene: Bearing, model: Any) -> float:
+    """The relative change of the load by the effects among inertia and cavitation that a model leaves out."""
+    from roughfilm.rom.bearing.omission import missing  # slow to import
+
+    return missing(scene, model)
 
 
 def window(scene: Bearing) -> Surface | None:
@@ -229,6 +232,7 @@ KIND = Kind(
     excluded="inertia, heat and deformation of the bodies as a whole",
     composed=composed,
     omitted=omitted,
+    missing=missing,
     files=frozenset({"table", "surface", "thickness"}),
     lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
     faults=validation_faults,
@@ -252,8 +256,9 @@ KIND = Kind(
         "load.pressure": ("force", "force_per_width"),
         "load.force": ("pressure", "force_per_width"),
         "load.force_per_width": ("pressure", "force"),
-        "boundary.inlet.theta": ("pressure",),
+        "boundary.inlet.theta": ("pressure", "ram_factor"),
         "boundary.inlet.pressure": ("theta",),
+        "boundary.inlet.ram_factor": ("theta",),
     },
     sweeping=Sweeping(
         given={"shape": None, "inlet_theta": 1.0, "compression": NEVER_COMPRESSED, "width_ratio": 1e3},

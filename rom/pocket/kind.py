@@ -1,6 +1,6 @@
 """The kind of scene ``pocket``: load and friction of a film over grooves or dimples."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, get_args
 
 import numpy as np
@@ -133,12 +133,18 @@ def remarks(entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> 
     return (ZERO_IN_PLAN,) if "dimples" in entries["geometry"] else ()
 
 
-def omitted(scene: Pocket, models: Sequence[Any], quantity: str) -> Mapping[str, Omission]:
-    """The effect that each model leaves out where the film ruptures, and inertia for one that keeps cavitation."""
+def omitted(scene: Pocket, model: Any, quantity: str) -> Omission | None:
+    """The effect that a model leaves out where the film ruptures, and inertia for one that keeps cavitation."""
     from roughfilm.rom.pocket.cavitating.omission import omission  # slow to import
 
-    found = {model.name: omission(scene, model, quantity) for model in models}
-    return {name: one for name, one in found.items() if one is not None}
+    return omission(scene, model, quantity)
+
+
+def missing(scene: Pocket, model: Any) -> float:
+    """The relative change of the load by the effects among inertia and cavitation that a model leaves out."""
+    from roughfilm.rom.pocket.cavitating.omission import missing  # slow to import
+
+    return missing(scene, model)
 
 
 def outside_laws(scene: Pocket, result: Result, quantity: str) -> str:
@@ -204,6 +210,7 @@ KIND = Kind(
     symbols=SYMBOLS,
     excluded="heat and deformation",
     omitted=omitted,
+    missing=missing,
     outside_laws=outside_laws,
     files=frozenset({"points"}),
     replaces={

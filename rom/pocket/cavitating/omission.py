@@ -94,6 +94,20 @@ def omission(scene: Pocket, model: Model[Pocket], quantity: str) -> Omission | N
     return None if found is None else _cavitation(scene, found, quantity)
 
 
+def missing(scene: Pocket, model: Model[Pocket]) -> float:
+    """The relative change of the load by the effects among inertia and cavitation that a model leaves out.
+
+    It is 0 where the film does not rupture: a model then includes all.
+    """
+    found = _ruptured(scene)
+    if found is None:
+        return 0.0
+    by_cavitation, by_inertia = found.changed("load_plus")
+    left_out = {Effect.CAVITATION: by_cavitation, Effect.INERTIA: by_inertia}
+    change = sum(size for effect, size in left_out.items() if effect not in model.keeps)
+    return _over(change, found, "load_plus")
+
+
 def _cavitation(scene: Pocket, found: _Films, quantity: str) -> Omission:
     reason = next(filter(None, (ruptures(scene, lowest) for lowest in found.lowest(scene))))[0]
     change = inf
