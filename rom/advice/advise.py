@@ -289,7 +289,7 @@ def _judged(task: AdviceTask) -> list[ModelVerdict]:
         within = task.left(model)
         one = (
             _after(task, model, resolution)
-            if chosen or (within <= 0 and a_priori(task, model, resolution) is not None)
+            if chosen or within <= 0
             else _verdict(task, model, resolution, checked=(model.name, resolution) in checked)
         )
         before = verdicts.get(model.name)

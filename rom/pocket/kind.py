@@ -140,6 +140,13 @@ def omitted(scene: Pocket, model: Any, quantity: str) -> Omission | None:
     return omission(scene, model, quantity)
 
 
+def missing(scene: Pocket, model: Any) -> float:
+    """The relative change of the load by the effects among inertia and cavitation that a model leaves out."""
+    from roughfilm.rom.pocket.cavitating.omission import missing  # slow to import
+
+    return missing(scene, model)
+
+
 def outside_laws(scene: Pocket, result: Result, quantity: str) -> str:
     """The reason for which the laws of the load do not hold for a film whose effects cancel in it; empty if they do."""
     from roughfilm.rom.pocket.validity.warnings import cancellations
@@ -203,6 +210,7 @@ KIND = Kind(
     symbols=SYMBOLS,
     excluded="heat and deformation",
     omitted=omitted,
+    missing=missing,
     outside_laws=outside_laws,
     files=frozenset({"points"}),
     replaces={

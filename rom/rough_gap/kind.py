@@ -93,7 +93,7 @@ def numbers(scene: RoughGap) -> dict[str, float]:
 
 
 def omitted(scene: RoughGap, _model: Any, quantity: str) -> Omission | None:
-    """The effect of cavitation, the same for all models; None if the film does not rupture."""
+    """The effect of cavitation; None if the film does not rupture."""
     from roughfilm.rom.rough_gap.omission import rupture_omitted  # slow to import
 
     return rupture_omitted(scene, quantity)
