@@ -194,16 +194,36 @@ class PocketGeometry(Part):
             entries.update(entries.pop("grooves")[0])
         return entries
 
+    @property
+    def depth(self) -> float:
+        """Depth of the deepest groove, m."""
+        return max(groove.depth for groove in self.grooves)
+
+    @property
+    def narrowest(self) -> float:
+        """Width of the narrowest groove, m."""
+        return min(groove.width for groove in self.grooves)
+
+    @property
+    def aspect(self) -> float:
+        """The largest 2d / w of the grooves: the mean slope of a symmetric one."""
+        return max(2 * groove.depth / groove.width for groove in self.grooves)
+
+    @property
+    def slope(self) -> float:
+        """Mean slope of the steepest groove from its lowest point to the nearer edge; 2d / w if it is symmetric."""
+        return max(groove.slope for groove in self.grooves)
+
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        _in_film_thicknesses("length", self.length / self.film, 1e-2)
+        in_film_thicknesses("length", self.length / self.film, 1e-2)
         for number, one in enumerate(self.grooves):
             place = f"grooves.{number}." if len(self.grooves) > 1 else ""
             width, depth = ("points", "points") if isinstance(one, Through) else ("width", "depth")
             if one.width >= self.length:
                 raise ValueError(f"{place}{width}: got {one.width!r} m; it must be below length, {self.length!r} m")
-            _in_film_thicknesses(place + width, one.width / self.film, 1e-2)
-            _in_film_thicknesses(place + depth, one.depth / self.film, 1e-9)
+            in_film_thicknesses(place + width, one.width / self.film, 1e-2)
+            in_film_thicknesses(place + depth, one.depth / self.film, 1e-9)
             beyond = max(abs(end) for end in one.span) - self.length / 2
             if beyond > groove.SAME_PLACE * self.length:
                 raise ValueError(
@@ -226,6 +246,7 @@ class PocketGeometry(Part):
         return groove.channel(length=self.length, film=self.film, grooves=grooves)
 
 
-def _in_film_thicknesses(place: str, value: float, least: float) -> None:
+def in_film_thicknesses(place: str, value: float, least: float) -> None:
+    """Check that a length over the film thickness is at least ``least`` and at most 100000; ValueError if it is not."""
     if not least <= value <= 1e5:
         raise ValueError(f"{place}: got {value:.3g} film thicknesses; it must be {least:g} to 100000 of them")

@@ -1,12 +1,13 @@
-"""The kind of scene ``pocket``: load and friction of a film over grooves."""
+"""The kind of scene ``pocket``: load and friction of a film over grooves or dimples."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
+from roughfilm.contact.foundation.entries import Part
 from roughfilm.contact.foundation.faults import Fault, faults_of, known_keys, unknown_key
 from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity
@@ -15,7 +16,9 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
-from roughfilm.rom.pocket.scene import TITLES, Pocket
+from roughfilm.rom.pocket.plan.dimples import SHAPES
+from roughfilm.rom.pocket.plan.geometry import PlanGeometry
+from roughfilm.rom.pocket.scene import GROOVES, IN_PLAN, TITLES, Pocket
 from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
 
 COMPARED = ("load_plus", "friction_plus")
@@ -26,6 +29,7 @@ FULL_INERTIA = ("film", "film_slope")
 
 REPORTED = {
     "load_per_area": "load per area",
+    "load_from_corner_per_area": "load per area, pressure zero at the corner",
     "friction_per_area": "friction per area",
     **{name: f"{title}, dimensionless" for name, title in TITLES.items() if name != "backflow"},
     "backflow": "reverse flow over sliding speed",
@@ -69,16 +73,21 @@ def scale(values: Mapping[str, Any], quantity: str) -> Any:
 
 
 def columns(scene: Pocket) -> dict[str, Quantity | str]:
-    """The Reynolds number, and for a single groove its shape and dimensionless numbers."""
+    """The Reynolds number, and for a single groove or dimple its shape and dimensionless numbers."""
     geometry = scene_entries(scene)["geometry"]
+    own = geometry["dimples"][0] if scene.in_plan and len(geometry["dimples"]) == 1 else {}
+    geometry = {**own, **geometry}
     ratios = {
         plus: float(f"{_length(geometry[one]) / _length(geometry[other]):.12g}")
         for plus, (one, other) in RATIOS.items()
         if one in geometry and other in geometry
     }
     numbers = {**ratios, "reynolds_number": scene.reynolds_number}
+    if scene.in_plan:
+        numbers["covered"] = scene.covered
+    shape = geometry.get("shape", "several dimples") if scene.in_plan else geometry.get("profile", "several grooves")
     return {
-        "profile": str(geometry.get("profile", "several grooves")),
+        "profile": str(shape),
         **{name: Quantity(value=float(number), unit="1") for name, number in numbers.items()},
     }
 
@@ -117,6 +126,8 @@ def omitted(scene: Pocket, quantity: str) -> Omission | None:
     """The effect of cavitation; None if the film does not rupture."""
     from roughfilm.rom.pocket.omission import rupture_omitted  # slow to import
 
+    if scene.in_plan:
+        return None
     return rupture_omitted(scene, quantity)
 
 
@@ -134,27 +145,33 @@ def _length(text: str) -> float:
     return float(text.partition(" ")[0])
 
 
-def _location(path: Location, entries: Mapping[str, Any]) -> tuple[list[int | str], str | None]:
-    """The location of a fault in the file, and the profile of its groove; None outside of grooves."""
+def _location(path: Location, entries: Mapping[str, Any]) -> tuple[list[int | str], type[Part] | None]:
+    """The location of a fault in the file, and the class of its groove or dimple; None outside of them."""
     location = list(path)
-    if location[:2] != ["geometry", "grooves"] or len(location) < 3:
+    if location[:1] != ["geometry"] or len(location) < 2:
         return location, None
-    profile = str(location.pop(3)) if len(location) > 3 else None
-    if "grooves" not in entries["geometry"]:
+    tag = location.pop(1)
+    if location[1:2] not in (["grooves"], ["dimples"]) or len(location) < 3:
+        return location, None
+    shape = (SHAPES if tag == IN_PLAN else PROFILES).get(str(location.pop(3))) if len(location) > 3 else None
+    if tag == GROOVES and "grooves" not in entries["geometry"]:
         del location[1:3]
-    return location, profile
+    return location, shape
 
 
 def pocket_faults(error: ValidationError, entries: Mapping[str, Any]) -> list[Fault]:
-    """The faults, with the keys of the groove's profile."""
+    """The faults, with the keys of the groove's profile or the dimple's shape."""
 
     def unknown(place: Location) -> tuple[str, str]:
-        (*path, key), profile = _location(place, entries)
-        known = [*PROFILES[profile].model_fields] if profile else known_keys(Pocket, path)
+        (*path, key), shape = _location(place, entries)
+        geometry = PlanGeometry if list(place[:2]) == ["geometry", IN_PLAN] else PocketGeometry
+        known = [*shape.model_fields] if shape else known_keys(Pocket, path) if path != ["geometry"] else []
         if path == ["geometry"]:
-            known = [*dict.fromkeys([*PocketGeometry.model_fields, *known])]
-        if profile and any(key in other.model_fields for other in PROFILES.values()):
-            return f"no key of profile {profile!r}; known here: {', '.join(known)}", ""
+            known = [*dict.fromkeys([*geometry.model_fields, *(shape.model_fields if shape else ())])]
+        if shape and any(key in other.model_fields for other in (*PROFILES.values(), *SHAPES.values())):
+            own = shape.model_fields
+            name = next(str(get_args(own[one].annotation)[0]) for one in ("profile", "shape") if one in own)
+            return f"no key of {'shape' if 'shape' in own else 'profile'} {name!r}; known here: {', '.join(known)}", ""
         return unknown_key(key, known)
 
     return faults_of(error, unknown, lambda path: _location(path, entries)[0])
@@ -163,7 +180,7 @@ def pocket_faults(error: ValidationError, entries: Mapping[str, Any]) -> list[Fa
 KIND = Kind(
     name="pocket",
     scene=Pocket,
-    summary="a groove under a sliding wall",
+    summary="grooves or dimples under a sliding wall",
     compared={name: TITLES[name] for name in COMPARED},
     others={name: title for name, title in TITLES.items() if name not in COMPARED},
     reported=REPORTED,

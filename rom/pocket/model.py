@@ -4,7 +4,9 @@ from collections.abc import Callable
 from typing import Unpack
 
 from roughfilm.contact.foundation.deferred import deferred
-from roughfilm.rom.ladder.model import About, Applicability, Model, Resolutions
+from roughfilm.rom.ladder.model import About, Applicability, Model, Progress, Resolutions
+from roughfilm.rom.ladder.request import CheckedRequest
+from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.pocket.pressure import NODES
 from roughfilm.rom.pocket.scene import Pocket
 
@@ -45,12 +47,46 @@ QUADRATURE_RESOLUTION_MEANING = "Gauss points on each smooth piece of the gap"
 QUADRATURE_RESIDUAL_MEANING = "mean mismatch of dp/dx between the nodes, relative to its mean size"
 
 
+PLAN_COLUMNS = Resolutions(least=8, most=512, default=64, series=(16, 32, 64, 128))
+"""Numbers of columns along a cell in plan."""
+
+PLAN_RESOLUTION_MEANING = "in plan, columns along the cell, and as many across per length"
+
+
+def in_plan_or_not(grooves: Resolutions, plan: Resolutions = PLAN_COLUMNS) -> Callable[[Pocket], Resolutions]:
+    """The resolutions of a model, for scenes with grooves and for cells in plan."""
+    return lambda scene: plan if scene.in_plan else grooves
+
+
+def computed(*, grooves: str, plan: str) -> Callable[..., Result]:
+    """The solver of a model: the function ``solve`` of a module for grooves, and that of another for cells in plan."""
+    of_grooves, of_plan = deferred(grooves, "solve"), deferred(plan, "solve")
+
+    def compute(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:
+        result: Result = (of_plan if scene.in_plan else of_grooves)(solver, scene, request, progress)
+        return result
+
+    return compute
+
+
+def not_in_plan(applies: Callable[[Pocket], Applicability]) -> Callable[[Pocket], Applicability]:
+    """The applicability of a model that solves grooves alone."""
+
+    def applies_to(scene: Pocket) -> Applicability:
+        if scene.in_plan:
+            return Applicability(applies=False, reason="solves grooves alone, not cells in plan")
+        return applies(scene)
+
+    return applies_to
+
+
 def film_model(*, applies: Callable[[Pocket], Applicability], **about: Unpack[About]) -> Model[Pocket]:
     """A model that solves the thin-film equations; the cost was measured for 50 to 800 cells."""
+    grooves = Resolutions(least=MIN_CELLS, most=MAX_CELLS, default=DEFAULT_CELLS, series=CELL_SERIES)
     return Model(
         **about,
         kind="pocket",
-        resolutions=Resolutions(least=MIN_CELLS, most=MAX_CELLS, default=DEFAULT_CELLS, series=CELL_SERIES),
+        resolutions=grooves,
         resolution_meaning=FILM_RESOLUTION_MEANING,
         residual_meaning=FILM_RESIDUAL_MEANING,
         order=2,
@@ -58,23 +94,26 @@ def film_model(*, applies: Callable[[Pocket], Applicability], **about: Unpack[Ab
         tolerances=(1e-14, 1.0),
         schemes=SCHEMES,
         cost=lambda _scene, resolution: 2.5e-3 + 5.7e-5 * resolution,
-        applies=applies,
+        applies=not_in_plan(applies),
         compute=deferred("rom.pocket.solve", "solve"),
     )
 
 
 def quadrature_model(*, applies: Callable[[Pocket], Applicability], **about: Unpack[About]) -> Model[Pocket]:
-    """A model that uses quadrature; the cost is that of the default rule (a half circle takes seconds)."""
+    """A model of the Reynolds equation: quadrature over grooves, finite volumes in plan.
+
+    The cost is that of the default rule (a half circle takes seconds).
+    """
     return Model(
         **about,
         kind="pocket",
-        resolutions=Resolutions(least=MIN_NODES, most=MAX_NODES, default=NODES, series=NODE_SERIES),
-        resolution_meaning=QUADRATURE_RESOLUTION_MEANING,
+        resolutions=in_plan_or_not(Resolutions(least=MIN_NODES, most=MAX_NODES, default=NODES, series=NODE_SERIES)),
+        resolution_meaning=f"{QUADRATURE_RESOLUTION_MEANING}; {PLAN_RESOLUTION_MEANING}",
         residual_meaning=QUADRATURE_RESIDUAL_MEANING,
         order=None,
         tolerance=QUADRATURE_RESIDUAL_TOLERANCE,
         tolerances=(1e-300, 1.0),
-        cost=lambda _scene, resolution: 2e-4 + 1e-7 * resolution**2,
+        cost=lambda scene, resolution: 1e-3 + 3e-6 * resolution**2 if scene.in_plan else 2e-4 + 1e-7 * resolution**2,
         applies=applies,
-        compute=deferred("rom.pocket.quadrature", "solve"),
+        compute=computed(grooves="rom.pocket.quadrature", plan="rom.pocket.plan.reynolds"),
     )

@@ -1,8 +1,8 @@
-"""The scene of a pocket: grooves under a sliding wall."""
+"""The scene of a pocket: grooves or dimples under a sliding wall."""
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from roughfilm.contact.foundation.entries import InUnit, Part, PositiveNumber
 from roughfilm.contact.foundation.units import Quantity
@@ -11,6 +11,8 @@ from roughfilm.rom.parts.fluid import Fluid
 from roughfilm.rom.parts.surroundings import GaugePressure, Surroundings
 from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.geometry import AnyGroove, PocketGeometry
+from roughfilm.rom.pocket.plan.geometry import PlanGeometry
+from roughfilm.rom.pocket.plan.plan import Plan
 
 Viscosity = Annotated[float, InUnit("Pa*s")]
 Density = Annotated[float, InUnit("kg/m^3")]
@@ -52,18 +54,40 @@ class PocketMotion(Part):
         return self
 
 
-class Pocket(Scene):
-    """Grooves under a sliding wall: steady, isothermal, incompressible, periodic flow without mean pressure drop.
+GROOVES, IN_PLAN = "grooves", "plan"
+"""Tags of the two geometries of a pocket, which are no keys of a scene file."""
 
-    The pressure at the periodic boundary on the sliding wall is ambient pressure, from which all pressures count.
+
+def _geometry_of(entries: Any) -> str:
+    """The tag of a geometry: a cell in plan has a breadth and dimples."""
+    if isinstance(entries, dict):
+        return IN_PLAN if {"breadth", "dimples", "arrangement"} & entries.keys() else GROOVES
+    return IN_PLAN if isinstance(entries, PlanGeometry) else GROOVES
+
+
+AnyGeometry = Annotated[
+    Annotated[PocketGeometry, Tag(GROOVES)] | Annotated[PlanGeometry, Tag(IN_PLAN)], Discriminator(_geometry_of)
+]
+
+
+class Pocket(Scene):
+    """Grooves or dimples under a sliding wall: steady, isothermal, incompressible flow without mean pressure drop.
+
+    The flow over grooves is two-dimensional and periodic along the sliding direction. A geometry with a ``breadth`` is
+    a cell in plan, whose flow is three-dimensional and periodic in both directions.
+
+    All pressures count from ambient pressure, which is the pressure at the periodic boundary on the sliding wall; in
+    plan it is its mean over that boundary, the edges x = ±length/2 of the cell.
 
     The fields of a result along the sliding (upper) wall are ``position`` and ``film_thickness``, m, ``pressure`` and
     ``shear_stress``, Pa. Models that resolve the film add ``vertices`` (nx+1, ny+1, 2), ``cell_velocity`` (nx, ny, 2)
-    and ``cell_pressure`` (nx, ny).
+    and ``cell_pressure`` (nx, ny). In plan the fields are ``x`` and ``y``, m, ``film_thickness``, ``pressure`` and
+    ``shear_stress``, all (nx, ny), and ``vertices`` (nx+1, ny+1, nz+1, 3), ``cell_velocity`` (nx, ny, nz, 3) and
+    ``cell_pressure`` (nx, ny, nz).
     """
 
     kind: Literal["pocket"]
-    geometry: PocketGeometry
+    geometry: AnyGeometry
     lubricant: NewtonianLubricant
     motion: PocketMotion
     boundary: Surroundings = Field(default_factory=Surroundings)
@@ -112,37 +136,56 @@ class Pocket(Scene):
         return 100 * self.geometry.film / self.geometry.length
 
     @property
+    def in_plan(self) -> bool:
+        """Whether the geometry is a cell in plan, with dimples and a breadth."""
+        return isinstance(self.geometry, PlanGeometry)
+
+    @property
     def grooves(self) -> tuple[AnyGroove, ...]:
-        """The grooves of the lower wall."""
+        """The grooves of the lower wall of a scene that is not in plan."""
+        assert isinstance(self.geometry, PocketGeometry)
         return self.geometry.grooves
 
     @property
     def reduced_reynolds_number(self) -> float:
-        """The ratio of inertia to viscous stress at the narrowest groove, Re Ly / w."""
-        return self.reynolds_number * self.geometry.film / min(groove.width for groove in self.grooves)
+        """The ratio of inertia to viscous stress at the narrowest groove or dimple, Re Ly / w."""
+        return self.reynolds_number * self.geometry.film / self.geometry.narrowest
 
     @property
     def depth(self) -> float:
-        """Depth of the deepest groove over the film thickness outside, d / Ly."""
-        return max(groove.depth for groove in self.grooves) / self.geometry.film
+        """Depth of the deepest groove or dimple over the film thickness outside, d / Ly."""
+        return self.geometry.depth / self.geometry.film
 
     @property
     def aspect(self) -> float:
-        """The largest 2d / w of the grooves: the mean slope of a symmetric one."""
-        return max(2 * groove.depth / groove.width for groove in self.grooves)
+        """The largest 2d / w of the grooves or dimples, with the least extent w."""
+        return self.geometry.aspect
 
     @property
     def slope(self) -> float:
-        """Mean slope of the steepest groove from its lowest point to the nearer edge; 2d / w if it is symmetric."""
-        return max(groove.slope for groove in self.grooves)
+        """Mean slope of the steepest groove or dimple from its greatest depth to the nearer edge."""
+        return self.geometry.slope
+
+    @property
+    def covered(self) -> float:
+        """The part of the cell in plan that dimples cover."""
+        assert isinstance(self.geometry, PlanGeometry)
+        return self.geometry.covered
 
     def gap(self) -> Gap:
-        """The gap between the walls."""
+        """The gap between the walls of a scene that is not in plan."""
+        assert isinstance(self.geometry, PocketGeometry)
         return self.geometry.gap()
+
+    def plan(self) -> Plan:
+        """The gap over the cell of a scene in plan."""
+        assert isinstance(self.geometry, PlanGeometry)
+        return self.geometry.plan()
 
 
 TITLES = {
     "load_plus": "load",
+    "load_from_corner_plus": "load, pressure zero at the corner",
     "friction_plus": "friction",
     "pressure_max_plus": "peak pressure",
     "pressure_min_plus": "least pressure",

@@ -3,6 +3,7 @@
 from roughfilm.foamcases.openfoam.model import openfoam_model
 from roughfilm.foamcases.pocket.model import CASES, SOURCES
 from roughfilm.rom.ladder.model import Applicability, Effect
+from roughfilm.rom.pocket.model import not_in_plan
 from roughfilm.rom.pocket.scene import Pocket
 
 
@@ -19,7 +20,7 @@ MODEL = openfoam_model(
     summary="adds slope and inertia in full: the most complete model",
     keeps=frozenset({Effect.SLOPE, Effect.INERTIA}),
     sources=SOURCES,
-    applies=applies,
+    applies=not_in_plan(applies),
     reynolds_number=lambda scene: scene.reynolds_number,
     schemes=("linear_upwind", "upwind"),
 )

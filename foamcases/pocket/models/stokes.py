@@ -3,6 +3,7 @@
 from roughfilm.foamcases.openfoam.model import creeping, openfoam_model
 from roughfilm.foamcases.pocket.model import CASES, SOURCES
 from roughfilm.rom.ladder.model import Applicability, Effect
+from roughfilm.rom.pocket.model import not_in_plan
 from roughfilm.rom.pocket.scene import Pocket
 
 
@@ -17,6 +18,6 @@ MODEL = openfoam_model(
     summary="adds slope: the whole film resolved, inertia negligible",
     keeps=frozenset({Effect.SLOPE}),
     sources=SOURCES,
-    applies=applies,
+    applies=not_in_plan(applies),
     reynolds_number=creeping,
 )

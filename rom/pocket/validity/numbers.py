@@ -20,9 +20,11 @@ SYMBOLS = {
     "asymmetry": "2|s|/w",
     "loaded": "load/p_max",
     "shortness": "h/l",
+    "covered": "covered part",
+    "cell_breadth": "B/L",
 }
-"""Symbols of the numbers: h is the film, L its period, l the shortest piece of the wall; w, d and s are width, depth
-and shift of a groove."""
+"""Symbols of the numbers: h is the film, L its period, l the shortest piece of the wall, B the breadth of a cell; w, d
+and s are width, depth and shift of a groove."""
 
 MIN_ASYMMETRY = 1e-3
 """The asymmetry of a symmetric groove."""
@@ -36,15 +38,24 @@ MAX_SHORTNESS = 20.0
 
 @lru_cache(maxsize=8)
 def numbers(scene: Pocket) -> Mapping[str, float]:
-    """The dimensionless numbers of the deepest, narrowest and steepest grooves, with load to first order in Re."""
-    gap = scene.gap()
-    found = {
+    """The dimensionless numbers of the deepest, narrowest and steepest grooves or dimples.
+
+    Those of grooves contain the load to first order in Re. Those of a cell in plan contain the covered part of it.
+    """
+    common = {
         "reynolds_number": scene.reynolds_number,
         "reduced_reynolds_number": scene.reduced_reynolds_number,
         "film": scene.geometry.film / scene.geometry.length,
         "depth": scene.depth,
         "aspect": scene.aspect,
         "slope": scene.slope,
+    }
+    if scene.in_plan:
+        plan = scene.plan()
+        return MappingProxyType({**common, "covered": scene.covered, "cell_breadth": plan.breadth / plan.length})
+    gap = scene.gap()
+    found = {
+        **common,
         "asymmetry": max(1 - scene.aspect / scene.slope, MIN_ASYMMETRY),
         "loaded": max(load_over_pressure(gap, scene.reynolds_number), MIN_LOAD_SCALE),
         "shortness": min(gap.film / shortest_piece(scene, gap), MAX_SHORTNESS),
