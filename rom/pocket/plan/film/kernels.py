@@ -1,7 +1,7 @@
-"""Loops over the cells of a film in plan: velocities and flows at the faces, and the momentum through them.
+"""Loops over the cells of a film in plan: values at their faces, momentum that leaves them, and long vectors.
 
-All arrays at points across the film have the shape (nx, ny, points). Cells are periodic; the node (i, j) has the
-momentum cell of u ahead of it along x, that of v ahead along y, and a corner of both ahead along both.
+Arrays at points across the film have the shape (nx, ny, points). The node (i, j) of a periodic grid has the cell of u
+ahead of it along x, that of v ahead along y, and a corner of cells ahead along both.
 """
 
 import numpy as np
@@ -10,126 +10,164 @@ from roughfilm.contact.foundation.compiled import compiled
 
 
 @compiled
-def face_values(u, v, psi_u, psi_v, excess_u, excess_v, thickness, grid, first, first_sum, upwind, known, central, out):  # type: ignore[no-untyped-def]
-    """Interpolate to the faces of all cells; linear in the velocities and stream functions but for the directions.
+def face_values(u, v, below_u, below_v, first, thickness, rows, central, polynomial, upwind, known, faces):  # type: ignore[no-untyped-def]
+    """Interpolate velocities to the faces of all cells.
 
     Parameters
     ----------
-    u, v, psi_u, psi_v : velocities, and stream functions over the film thickness, of the cells.
-    excess_u, excess_v : changes of the first amplitudes per change of 1/h that keep the flow, shape (nx, ny).
-    thickness : film thickness in the cells of u and v and at the nodes, shape (3, nx, ny).
-    grid : lengths of the cells along an axis and between their middles, weights of the upstream cell, 1 or 0 by the
-        order, shape (2, 3, n), first along x.
-    first, first_sum : the first polynomial and its primitive.
-    upwind : directions of u and v at nodes and of v and u at corners, 1 forward or 0, shape (4, nx, ny, points).
+    u, v, below_u, below_v : velocities of the cells, and their integrals from Y = 0.
+    first : the flow over film thickness of u and of v in amplitudes of the first polynomial, shape (2, nx, ny).
+    thickness, rows, central : those of a sheet.
+    polynomial : the first polynomial and its integral, shape (2, points).
+    upwind : directions at u and v at nodes and at u and v at corners, 1 forward or 0, shape (4, nx, ny, points).
     known : whether the directions are given; if not they are determined.
-    out : u and v at nodes; u and v at corners; flows v and u through corners; rises of u and v, shape (8, ...).
+    faces : u and v at nodes; u and v at corners; flows along y and x through the corners; flows that enter the cells of
+        u and of v below a point, shape (8, nx, ny, points).
+
+    Notes
+    -----
+    Along its own axis the flow of a velocity is interpolated, and its first amplitude follows from the film thickness
+    at the node, so that a uniform flow remains one. The other amplitudes are interpolated themselves.
     """
     nx, ny, points = u.shape
-    hu, hv, hp = thickness[0], thickness[1], thickness[2]
-    lx, ly, bx, by = grid[0, 0], grid[1, 0], grid[0, 1], grid[1, 1]
+    h_u, h_v, h = thickness[0], thickness[1], thickness[2]
+    first_u, first_v, shape, below = first[0], first[1], polynomial[0], polynomial[1]
+    ahead_x, around_x, ahead_y, around_y = rows[0, 0], rows[0, 1], rows[1, 0], rows[1, 1]
     for i in range(nx):
-        i1, i2, ip = (i - 1) % nx, (i - 2) % nx, (i + 1) % nx
+        i2, i1, ip, ipp = (i - 2) % nx, (i - 1) % nx, (i + 1) % nx, (i + 2) % nx
+        left_x = ahead_x[i] / (ahead_x[i1] + ahead_x[i])
         for j in range(ny):
-            j1, j2, jp = (j - 1) % ny, (j - 2) % ny, (j + 1) % ny
-            # u along x at the node
-            here = 1 / hp[i, j]
-            e2 = (hu[i2, j] * here - 1) * excess_u[i2, j]
-            e1 = (hu[i1, j] * here - 1) * excess_u[i1, j]
-            e0 = (hu[i, j] * here - 1) * excess_u[i, j]
-            ep = (hu[ip, j] * here - 1) * excess_u[ip, j]
-            behind, ahead = grid[0, 2, i1], grid[0, 3, i]
-            left = lx[i] / (lx[i1] + lx[i])
+            j2, j1, jp, jpp = (j - 2) % ny, (j - 1) % ny, (j + 1) % ny, (j + 2) % ny
+            left_y = ahead_y[j] / (ahead_y[j1] + ahead_y[j])
+            e2, e1 = (h_u[i2, j] / h[i, j] - 1) * first_u[i2, j], (h_u[i1, j] / h[i, j] - 1) * first_u[i1, j]
+            e0, ep = (h_u[i, j] / h[i, j] - 1) * first_u[i, j], (h_u[ip, j] / h[i, j] - 1) * first_u[ip, j]
+            behind, ahead = rows[0, 2, i1], rows[0, 3, i]
             for m in range(points):
-                middle = left * (u[i1, j, m] + first[m] * e1) + (1 - left) * (u[i, j, m] + first[m] * e0)
+                back, fore = u[i1, j, m] + shape[m] * e1, u[i, j, m] + shape[m] * e0
+                middle = left_x * back + (1 - left_x) * fore
                 if not known:
                     upwind[0, i, j, m] = 1.0 if middle > 0 else 0.0
-                forward = (1 + behind) * (u[i1, j, m] + first[m] * e1) - behind * (u[i2, j, m] + first[m] * e2)
-                backward = (1 + ahead) * (u[i, j, m] + first[m] * e0) - ahead * (u[ip, j, m] + first[m] * ep)
-                out[0, i, j, m] = central * middle + (1 - central) * (backward + upwind[0, i, j, m] * (forward - backward))
-            # v along y at the node
-            e2 = (hv[i, j2] * here - 1) * excess_v[i, j2]
-            e1 = (hv[i, j1] * here - 1) * excess_v[i, j1]
-            e0 = (hv[i, j] * here - 1) * excess_v[i, j]
-            ep = (hv[i, jp] * here - 1) * excess_v[i, jp]
-            behind, ahead = grid[1, 2, j1], grid[1, 3, j]
-            left = ly[j] / (ly[j1] + ly[j])
+                forward = (1 + behind) * back - behind * (u[i2, j, m] + shape[m] * e2)
+                backward = (1 + ahead) * fore - ahead * (u[ip, j, m] + shape[m] * ep)
+                value = backward + upwind[0, i, j, m] * (forward - backward)
+                faces[0, i, j, m] = central * middle + (1 - central) * value
+            e2, e1 = (h_v[i, j2] / h[i, j] - 1) * first_v[i, j2], (h_v[i, j1] / h[i, j] - 1) * first_v[i, j1]
+            e0, ep = (h_v[i, j] / h[i, j] - 1) * first_v[i, j], (h_v[i, jp] / h[i, j] - 1) * first_v[i, jp]
+            behind, ahead = rows[1, 2, j1], rows[1, 3, j]
             for m in range(points):
-                middle = left * (v[i, j1, m] + first[m] * e1) + (1 - left) * (v[i, j, m] + first[m] * e0)
+                back, fore = v[i, j1, m] + shape[m] * e1, v[i, j, m] + shape[m] * e0
+                middle = left_y * back + (1 - left_y) * fore
                 if not known:
                     upwind[1, i, j, m] = 1.0 if middle > 0 else 0.0
-                forward = (1 + behind) * (v[i, j1, m] + first[m] * e1) - behind * (v[i, j2, m] + first[m] * e2)
-                backward = (1 + ahead) * (v[i, j, m] + first[m] * e0) - ahead * (v[i, jp, m] + first[m] * ep)
-                out[1, i, j, m] = central * middle + (1 - central) * (backward + upwind[1, i, j, m] * (forward - backward))
-            # flows through the corner, and the velocities along the other axis that they carry
-            behind, ahead = grid[1, 4, j], grid[1, 5, jp]
+                forward = (1 + behind) * back - behind * (v[i, j2, m] + shape[m] * e2)
+                backward = (1 + ahead) * fore - ahead * (v[i, jp, m] + shape[m] * ep)
+                value = backward + upwind[1, i, j, m] * (forward - backward)
+                faces[1, i, j, m] = central * middle + (1 - central) * value
+            behind, ahead = rows[1, 4, j], rows[1, 5, jp]
             for m in range(points):
-                flow = (hv[i, j] * v[i, j, m] + hv[ip, j] * v[ip, j, m]) / 2
+                flow = (h_v[i, j] * v[i, j, m] + h_v[ip, j] * v[ip, j, m]) / 2
                 if not known:
                     upwind[2, i, j, m] = 1.0 if flow > 0 else 0.0
                 forward = (1 + behind) * u[i, j, m] - behind * u[i, j1, m]
-                backward = (1 + ahead) * u[i, jp, m] - ahead * u[i, (j + 2) % ny, m]
-                middle = (u[i, j, m] + u[i, jp, m]) / 2
-                out[2, i, j, m] = central * middle + (1 - central) * (backward + upwind[2, i, j, m] * (forward - backward))
-                out[4, i, j, m] = flow
-            behind, ahead = grid[0, 4, i], grid[0, 5, ip]
+                backward = (1 + ahead) * u[i, jp, m] - ahead * u[i, jpp, m]
+                value = backward + upwind[2, i, j, m] * (forward - backward)
+                faces[2, i, j, m] = central * (u[i, j, m] + u[i, jp, m]) / 2 + (1 - central) * value
+                faces[4, i, j, m] = flow
+            behind, ahead = rows[0, 4, i], rows[0, 5, ip]
             for m in range(points):
-                flow = (hu[i, j] * u[i, j, m] + hu[i, jp] * u[i, jp, m]) / 2
+                flow = (h_u[i, j] * u[i, j, m] + h_u[i, jp] * u[i, jp, m]) / 2
                 if not known:
                     upwind[3, i, j, m] = 1.0 if flow > 0 else 0.0
                 forward = (1 + behind) * v[i, j, m] - behind * v[i1, j, m]
-                backward = (1 + ahead) * v[ip, j, m] - ahead * v[(i + 2) % nx, j, m]
-                middle = (v[i, j, m] + v[ip, j, m]) / 2
-                out[3, i, j, m] = central * middle + (1 - central) * (backward + upwind[3, i, j, m] * (forward - backward))
-                out[5, i, j, m] = flow
-    for i in range(nx):
-        i1, ip = (i - 1) % nx, (i + 1) % nx
-        for j in range(ny):
-            j1, jp = (j - 1) % ny, (j + 1) % ny
-            a, b, c = lx[i] / (lx[i1] + lx[i]), lx[ip] / (lx[i] + lx[ip]), by[j]
-            ea = a * (hu[i1, j] - hp[i, j]) * excess_u[i1, j] + (1 - a) * (hu[i, j] - hp[i, j]) * excess_u[i, j]
-            eb = b * (hu[i, j] - hp[ip, j]) * excess_u[i, j] + (1 - b) * (hu[ip, j] - hp[ip, j]) * excess_u[ip, j]
+                backward = (1 + ahead) * v[ip, j, m] - ahead * v[ipp, j, m]
+                value = backward + upwind[3, i, j, m] * (forward - backward)
+                faces[3, i, j, m] = central * (v[i, j, m] + v[ip, j, m]) / 2 + (1 - central) * value
+                faces[5, i, j, m] = flow
+            next_x, next_y = ahead_x[ip] / (ahead_x[i] + ahead_x[ip]), ahead_y[jp] / (ahead_y[j] + ahead_y[jp])
+            e1 = left_x * (h_u[i1, j] - h[i, j]) * first_u[i1, j] + (1 - left_x) * (h_u[i, j] - h[i, j]) * first_u[i, j]
+            ep = next_x * (h_u[i, j] - h[ip, j]) * first_u[i, j]
+            ep += (1 - next_x) * (h_u[ip, j] - h[ip, j]) * first_u[ip, j]
             for m in range(points):
-                ahead = hp[ip, j] * (b * psi_u[i, j, m] + (1 - b) * psi_u[ip, j, m]) + first_sum[m] * eb
-                behind = hp[i, j] * (a * psi_u[i1, j, m] + (1 - a) * psi_u[i, j, m]) + first_sum[m] * ea
-                side = hv[i, j] * psi_v[i, j, m] + hv[ip, j] * psi_v[ip, j, m]
-                side -= hv[i, j1] * psi_v[i, j1, m] + hv[ip, j1] * psi_v[ip, j1, m]
-                out[6, i, j, m] = c * (ahead - behind) + lx[i] / 2 * side
-            a, b, c = ly[j] / (ly[j1] + ly[j]), ly[jp] / (ly[j] + ly[jp]), bx[i]
-            ea = a * (hv[i, j1] - hp[i, j]) * excess_v[i, j1] + (1 - a) * (hv[i, j] - hp[i, j]) * excess_v[i, j]
-            eb = b * (hv[i, j] - hp[i, jp]) * excess_v[i, j] + (1 - b) * (hv[i, jp] - hp[i, jp]) * excess_v[i, jp]
+                fore = h[ip, j] * (next_x * below_u[i, j, m] + (1 - next_x) * below_u[ip, j, m]) + below[m] * ep
+                back = h[i, j] * (left_x * below_u[i1, j, m] + (1 - left_x) * below_u[i, j, m]) + below[m] * e1
+                side = h_v[i, j] * below_v[i, j, m] + h_v[ip, j] * below_v[ip, j, m]
+                side -= h_v[i, j1] * below_v[i, j1, m] + h_v[ip, j1] * below_v[ip, j1, m]
+                faces[6, i, j, m] = around_y[j] * (fore - back) + ahead_x[i] / 2 * side
+            e1 = left_y * (h_v[i, j1] - h[i, j]) * first_v[i, j1] + (1 - left_y) * (h_v[i, j] - h[i, j]) * first_v[i, j]
+            ep = next_y * (h_v[i, j] - h[i, jp]) * first_v[i, j]
+            ep += (1 - next_y) * (h_v[i, jp] - h[i, jp]) * first_v[i, jp]
             for m in range(points):
-                ahead = hp[i, jp] * (b * psi_v[i, j, m] + (1 - b) * psi_v[i, jp, m]) + first_sum[m] * eb
-                behind = hp[i, j] * (a * psi_v[i, j1, m] + (1 - a) * psi_v[i, j, m]) + first_sum[m] * ea
-                side = hu[i, j] * psi_u[i, j, m] + hu[i, jp] * psi_u[i, jp, m]
-                side -= hu[i1, j] * psi_u[i1, j, m] + hu[i1, jp] * psi_u[i1, jp, m]
-                out[7, i, j, m] = c * (ahead - behind) + ly[j] / 2 * side
+                fore = h[i, jp] * (next_y * below_v[i, j, m] + (1 - next_y) * below_v[i, jp, m]) + below[m] * ep
+                back = h[i, j] * (left_y * below_v[i, j1, m] + (1 - left_y) * below_v[i, j, m]) + below[m] * e1
+                side = h_u[i, j] * below_u[i, j, m] + h_u[i, jp] * below_u[i, jp, m]
+                side -= h_u[i1, j] * below_u[i1, j, m] + h_u[i1, jp] * below_u[i1, jp, m]
+                faces[7, i, j, m] = around_x[i] * (fore - back) + ahead_y[j] / 2 * side
 
 
 @compiled
-def momentum(u, v, face, du, dv, dface, thickness, grid, out):  # type: ignore[no-untyped-def]
-    """The momentum that leaves each cell, to first order in the changes d of a flow; of the flow itself if both are one.
+def momentum(u, v, faces, change_u, change_v, changes, thickness, rows, leaving):  # type: ignore[no-untyped-def]
+    """The momentum that leaves each cell, to first order in changes; twice that of the flow if it is its own change.
 
-    ``out`` has the shape (2, 2, nx, ny, points): first the momentum through the sides and then the velocity times the
-    flow through the surfaces of constant Y, of u and of v.
+    ``leaving`` has the shape (2, 2, nx, ny, points): of u and of v the momentum through the sides, and the velocity
+    times the flow through the surfaces of constant Y.
     """
     nx, ny, points = u.shape
-    hp = thickness[2]
-    lx, ly, bx, by = grid[0, 0], grid[1, 0], grid[0, 1], grid[1, 1]
+    h = thickness[2]
+    ahead_x, around_x, ahead_y, around_y = rows[0, 0], rows[0, 1], rows[1, 0], rows[1, 1]
     for i in range(nx):
         i1, ip = (i - 1) % nx, (i + 1) % nx
         for j in range(ny):
             j1, jp = (j - 1) % ny, (j + 1) % ny
             for m in range(points):
-                through = hp[ip, j] * face[0, ip, j, m] * dface[0, ip, j, m]
-                through -= hp[i, j] * face[0, i, j, m] * dface[0, i, j, m]
-                side = face[2, i, j, m] * dface[4, i, j, m] + dface[2, i, j, m] * face[4, i, j, m]
-                side -= face[2, i, j1, m] * dface[4, i, j1, m] + dface[2, i, j1, m] * face[4, i, j1, m]
-                out[0, 0, i, j, m] = 2 * by[j] * through + lx[i] * side
-                out[0, 1, i, j, m] = u[i, j, m] * dface[6, i, j, m] + du[i, j, m] * face[6, i, j, m]
-                through = hp[i, jp] * face[1, i, jp, m] * dface[1, i, jp, m]
-                through -= hp[i, j] * face[1, i, j, m] * dface[1, i, j, m]
-                side = face[3, i, j, m] * dface[5, i, j, m] + dface[3, i, j, m] * face[5, i, j, m]
-                side -= face[3, i1, j, m] * dface[5, i1, j, m] + dface[3, i1, j, m] * face[5, i1, j, m]
-                out[1, 0, i, j, m] = 2 * bx[i] * through + ly[j] * side
-                out[1, 1, i, j, m] = v[i, j, m] * dface[7, i, j, m] + dv[i, j, m] * face[7, i, j, m]
+                through = h[ip, j] * faces[0, ip, j, m] * changes[0, ip, j, m]
+                through -= h[i, j] * faces[0, i, j, m] * changes[0, i, j, m]
+                side = faces[2, i, j, m] * changes[4, i, j, m] + changes[2, i, j, m] * faces[4, i, j, m]
+                side -= faces[2, i, j1, m] * changes[4, i, j1, m] + changes[2, i, j1, m] * faces[4, i, j1, m]
+                leaving[0, 0, i, j, m] = 2 * around_y[j] * through + ahead_x[i] * side
+                leaving[0, 1, i, j, m] = u[i, j, m] * changes[6, i, j, m] + change_u[i, j, m] * faces[6, i, j, m]
+            for m in range(points):
+                through = h[i, jp] * faces[1, i, jp, m] * changes[1, i, jp, m]
+                through -= h[i, j] * faces[1, i, j, m] * changes[1, i, j, m]
+                side = faces[3, i, j, m] * changes[5, i, j, m] + changes[3, i, j, m] * faces[5, i, j, m]
+                side -= faces[3, i1, j, m] * changes[5, i1, j, m] + changes[3, i1, j, m] * faces[5, i1, j, m]
+                leaving[1, 0, i, j, m] = 2 * around_x[i] * through + ahead_y[j] * side
+                leaving[1, 1, i, j, m] = v[i, j, m] * changes[7, i, j, m] + change_v[i, j, m] * faces[7, i, j, m]
+
+
+@compiled
+def dot(one, other):  # type: ignore[no-untyped-def]
+    """The sum of products; the libraries of linear algebra start threads for long vectors, which take CPU time."""
+    total = 0.0
+    for i in range(one.size):
+        total += one[i] * other[i]
+    return total
+
+
+@compiled
+def orthogonalise(directions, vector, projections, number):  # type: ignore[no-untyped-def]
+    """Take the first ``number`` orthonormal directions out of a vector and append the normalised rest to them."""
+    for k in range(number):
+        part = 0.0
+        for i in range(vector.size):
+            part += directions[k, i] * vector[i]
+        projections[k] = part
+        for i in range(vector.size):
+            vector[i] -= part * directions[k, i]
+    rest = 0.0
+    for i in range(vector.size):
+        rest += vector[i] * vector[i]
+    rest = np.sqrt(rest)
+    projections[number] = rest
+    scale = 1 / rest if rest > 0 else 0.0
+    for i in range(vector.size):
+        directions[number, i] = vector[i] * scale
+
+
+@compiled
+def combine(directions, weights, combined):  # type: ignore[no-untyped-def]
+    """The sum of the first directions times weights."""
+    for i in range(combined.size):
+        combined[i] = 0.0
+    for k in range(weights.size):
+        for i in range(combined.size):
+            combined[i] += weights[k] * directions[k, i]
