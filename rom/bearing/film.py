@@ -11,10 +11,10 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.equilibrium.expected import MIN_FILM_OVER_PEAK, closest_film, expected_film
 from roughfilm.rom.bearing.model import MAX_CELLS, smooth_resolutions
-from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.roughness import RoughSurface, Sinusoid, StoredTable
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.shape import CELLS_PER_FEATURE
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap, GapFactors
 from roughfilm.rom.ladder.model import Applicability
 

@@ -169,7 +169,7 @@ def _of_the_whole(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]
     return (f"{line}; the whole bearing carries {carried}",)
 
 
-def omitted(scene: Bearing, quantity: str) -> Omission | None:
+def omitted(scene: Bearing, _model: Any, quantity: str) -> Omission | None:
     """The first-order effect of inertia; None without a density, or if the film does not converge."""
     from roughfilm.rom.bearing.omission import inertia_omitted  # slow to import
 
@@ -248,8 +248,9 @@ KIND = Kind(
         "load.pressure": ("force", "force_per_width"),
         "load.force": ("pressure", "force_per_width"),
         "load.force_per_width": ("pressure", "force"),
-        "boundary.inlet.theta": ("pressure",),
+        "boundary.inlet.theta": ("pressure", "ram_factor"),
         "boundary.inlet.pressure": ("theta",),
+        "boundary.inlet.ram_factor": ("theta",),
     },
     sweeping=Sweeping(
         given={"shape": None, "inlet_theta": 1.0, "compression": NEVER_COMPRESSED, "width_ratio": 1e3},

@@ -6,8 +6,7 @@ from roughfilm.rom.bearing.inertia import inertia
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import load_loops
-from roughfilm.rom.cavitation.solve import solve
+from roughfilm.rom.cavitation.solve import load_loops, solve
 from roughfilm.rom.ladder.kind import Omission
 
 CELLS = {True: 512, False: 64}

@@ -11,9 +11,6 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.texture import Texture, pocketed
 from roughfilm.rom.cavitation.shape import Shape
 
-CELLS_PER_FEATURE = 8
-"""Number of cells over a wave or a pocket at which the error of the load is a few per cent."""
-
 
 def known_film(film: float | None) -> float:
     """The film thickness, m, or eccentricity; InputError if it is missing, because the load determines it."""

@@ -1,7 +1,7 @@
 """The quantities of a converged film: load, friction, pressures and flows."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,10 +11,12 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.bearing.totals.least_film import least_film
-from roughfilm.rom.cavitation.averaged import Averaged
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
+from roughfilm.rom.cavitation.evaluation.filling import density_ratio, filled_fraction
+from roughfilm.rom.cavitation.evaluation.flows import flow_across, flow_along
+from roughfilm.rom.cavitation.evaluation.friction import drag_of_rows, radius_between
+from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
 from roughfilm.rom.cavitation.grid import Grid
-from roughfilm.rom.cavitation.oblique import wetness
 from roughfilm.rom.cavitation.solve import Solution
 
 EXACT = ("film_min", "film_min_x", "film_min_y")
@@ -92,7 +94,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         values["attitude_angle"] = (journal_load(scene.geometry, scene_positions(solution), force)[0], "deg")
     if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
         values["friction_coefficient"] = (resistance / load, "1")
-        values |= {name: (number, "1") for name, number in _numbers_of_load(scene, specific).items()}
+        values |= {name: (number, "1") for name, number in numbers_of_load(scene, specific).items()}
     return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
 
 
@@ -102,10 +104,10 @@ def _torque(scene: Bearing, between: Array, rows: Array, grid: Grid) -> float | 
         return scene.geometry.radius * float(rows.sum() + between.sum())
     if scene.turning_radius is None:
         return None
-    return float((rows * grid.radius).sum() + (between * _towards(grid)).sum())
+    return float((rows * grid.radius).sum() + (between * radius_between(grid)).sum())
 
 
-def _numbers_of_load(scene: Bearing, specific: float) -> dict[str, float]:
+def numbers_of_load(scene: Bearing, specific: float) -> dict[str, float]:
     """The Hersey number of a specific load, Pa, and the Sommerfeld number of a journal."""
     geometry, radius, speed = scene.geometry, scene.turning_radius, abs(scene.motion.speed)
     frequency = speed / geometry.length if radius is None else speed / (2 * math.pi * radius)
@@ -113,166 +115,6 @@ def _numbers_of_load(scene: Bearing, specific: float) -> dict[str, float]:
     if not isinstance(geometry, Journal):
         return {"hersey_number": hersey}
     return {"hersey_number": hersey, "sommerfeld_number": hersey * (geometry.radius / geometry.clearance) ** 2}
-
-
-def peak_pressure(solution: Solution) -> float:
-    """The largest pressure above cavitation pressure, Pa: of a parabola through the highest node and its neighbours.
-
-    p + gᵀ(-H)⁻¹g/2 with the central differences g and H, in the directions in which the highest node lies inside a film
-    with equal cells. At a break of the film thickness the pressure may have a kink; the highest node then is the peak.
-    """
-    pressure, nodes = solution.state.pressure, solution.grid
-    shape, (i, j) = solution.problem.shape, (int(at) for at in np.unravel_index(np.argmax(pressure), pressure.shape))
-    top = float(pressure[i, j])
-    ways = [
-        _smooth(place, at, spacing, breaks, periodic=periodic)
-        for place, at, spacing, breaks, periodic in (
-            (nodes.x, i, nodes.spacing_x, shape.breaks, solution.network.periodic[0]),
-            (nodes.y, j, nodes.spacing_y, shape.steps_across, solution.network.periodic[1]),
-        )
-    ]
-    around = pressure.take(range(i - 1, i + 2), axis=0, mode="wrap").take(range(j - 1, j + 2), axis=1, mode="wrap")
-    film = solution.kind.take(range(i - 1, i + 2), axis=0, mode="wrap").take(range(j - 1, j + 2), axis=1, mode="wrap")
-    if not (film[1 - ways[0] : 2 + ways[0], 1 - ways[1] : 2 + ways[1]] == FILM).all():
-        return top
-    slope = np.array([around[2, 1] - around[0, 1], around[1, 2] - around[1, 0]]) / 2
-    mixed = (around[2, 2] - around[2, 0] - around[0, 2] + around[0, 0]) / 4
-    bend = np.array(
-        [
-            [2 * top - around[2, 1] - around[0, 1], -mixed],
-            [-mixed, 2 * top - around[1, 2] - around[1, 0]],
-        ]
-    )
-    slope, bend = slope[ways], bend[np.ix_(ways, ways)]
-    if not (slope.any() and np.linalg.eigvalsh(bend).min() > 0):
-        return top
-    offset = np.linalg.solve(bend, slope)
-    return top + float(slope @ offset) / 2 if np.abs(offset).max() <= 1 else top
-
-
-def _smooth(places: Array, at: int, spacing: Array, breaks: Sequence[float], *, periodic: bool) -> bool:
-    """Whether a node lies between two equal cells and at no break."""
-    if places.size < 3 or not (periodic or 0 < at < places.size - 1):
-        return False
-    before, after = spacing[at - 1], spacing[at]
-    return bool(abs(before - after) <= 1e-6 * after and (np.abs(places[at] - np.array(breaks)) > 1e-6 * after).all())
-
-
-def density_ratio(solution: Solution) -> Array:
-    """The density ratio θ at the nodes, shape (nx, ny), in cavities that of the liquid that flows out of the node."""
-    film = 1 + solution.problem.compression(solution.state.pressure)[0]
-    return np.where(solution.kind == CAVITY, np.minimum(_filled_fraction(solution), 1.0), film)
-
-
-def _filled_fraction(solution: Solution) -> Array:
-    """The filled fraction of each node according to the flow out of it."""
-    mean, rough = solution.faces.mean, solution.faces.averaged
-    thickness = solution.faces.thickness if rough is None else rough.drag
-    return np.asarray(_carried(solution) * np.where(mean > 0, mean, thickness) / thickness)
-
-
-def _carried(solution: Solution) -> Array:
-    """ξ of each node, in cavities the flow out of the node over that through the whole face full of liquid."""
-    mean, fill = solution.faces.mean, solution.state.fill
-    parts = solution.faces.parts[0, : len(solution.network.part_couette)]
-    share = np.divide(np.minimum(mean, parts.min(axis=0, initial=np.inf)), mean, out=np.ones_like(mean), where=mean > 0)
-    return np.where(solution.kind == CAVITY, share * fill, fill)
-
-
-def friction(solution: Solution) -> float:
-    """The force on the sliding wall against its motion, N (N/m if infinitely wide)."""
-    drag = drag_of_rows(solution)
-    return float(drag.rows.sum() + drag.between.sum())
-
-
-@dataclass(frozen=True, kw_only=True)
-class Drag:
-    """The force of the liquid on the sliding wall against its motion, N (N/m if infinitely wide).
-
-    Attributes
-    ----------
-    rows : the part of the shear and of the pressure gradient along the sliding, for each row of nodes, shape (ny,).
-    between : that of the pressure gradient across the sliding, between neighbouring rows, shape (ny - 1,); only an
-        averaged oblique lay has one.
-    """
-
-    rows: Array
-    between: Array
-
-
-def drag_of_rows(solution: Solution) -> Drag:
-    """The friction of the liquid, row by row."""
-    grid, mean, problem = solution.grid, solution.faces.mean, solution.problem
-    fluidity = problem.piezoviscosity.fluidity(solution.state.pressure, problem.viscosity)[0]
-    stretch = grid.spacing_x[:, None] * grid.radius
-    speed = problem.speed * (grid.radius if problem.shape.polar else 1.0)
-    fill = _carried(solution)
-    if problem.ends.sides is not None:  # the outermost lines belong to the bath
-        fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
-    rough = solution.faces.averaged
-    with np.errstate(divide="ignore", invalid="ignore"):
-        gradient = fill / mean if rough is None else _shear_factor(solution, rough, fill)
-        shear = np.where(mean > 0, problem.viscosity * speed * gradient, 0.0)
-    shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
-    rise = np.roll(solution.state.pressure, -1, axis=0) - solution.state.pressure
-    along = (grid.volume_y * (shear * stretch + mean / 2 * rise)).sum(axis=0)
-    if rough is None or grid.shape[1] == 1:
-        return Drag(rows=along, between=np.zeros(grid.shape[1] - 1))
-    climb = solution.state.pressure[:, 1:] - solution.state.pressure[:, :-1]
-    across = grid.volume_x[:, None] * _towards(grid) * rough.drag_across[:, :-1] / 2 * climb
-    return Drag(rows=along, between=across.sum(axis=0))
-
-
-def _shear_factor(solution: Solution, rough: Averaged, fill: Array) -> Array:
-    """Friction over ηu of averaged roughness, 1/m: d + 3e in a film, that of streamers where the tips are dry."""
-    return np.asarray(fill * rough.streaming + _wetness(solution, rough, fill) * (rough.wet - rough.streaming))
-
-
-def _wetness(solution: Solution, rough: Averaged, fill: Array) -> Array:
-    """The wetness g of the tips at the faces towards i + 1, where a film begins the mean over cavity and film."""
-    couette, kind = solution.network.couette, solution.kind
-    inflow = np.roll(flow_along(solution), 1, axis=0)
-    if solution.network.supplied.size:
-        inflow[0] = solution.network.supplied
-    empty = np.clip(np.divide(inflow, couette, out=np.zeros_like(couette), where=couette > 0), 0.0, fill)
-    film = np.divide(fill - empty, 1 - empty, out=np.zeros_like(fill), where=empty < 1)
-    begins = (kind == CAVITY) & (np.roll(kind, -1, axis=0) == FILM)
-    of_cavity = wetness(np.where(begins, empty, fill), rough.threshold)
-    return np.where(begins, film + (1 - film) * of_cavity, of_cavity)
-
-
-def _towards(grid: Grid) -> Array:
-    """The radius at the faces towards j + 1, shape (ny - 1,)."""
-    return (grid.radius[1:] + grid.radius[:-1]) / 2
-
-
-def flow_along(solution: Solution) -> Array:
-    """The flow through the faces towards i + 1 at cavitation density, m³/s (m²/s if wide), shape (nx, ny)."""
-    net, state = solution.network, solution.state
-    excess = solution.problem.compression(state.pressure)[0]
-    mobility = solution.problem.mobility(state.pressure)[0]
-    east = net.conductance(mobility)[0]
-    ahead = np.roll(excess, -1, axis=0)
-    drift = net.couette * (state.fill + net.upstream * excess + (1 - net.upstream) * ahead)
-    rise = np.roll(state.pressure, -1, axis=0) - state.pressure
-    flow = net.least_flow(drift - east * rise, state, excess, mobility)
-    return np.asarray(flow + (0.0 if net.oblique is None else _oblique_flows(solution)[0]))
-
-
-def _oblique_flows(solution: Solution) -> tuple[Array, Array]:
-    """The additional flows of an oblique lay towards i + 1 and j + 1, m³/s."""
-    assert solution.network.oblique is not None
-    state, problem = solution.state, solution.problem
-    excess, mobility = problem.compression(state.pressure)[0], problem.mobility(state.pressure)[0]
-    return solution.network.oblique.flows(mobility, state.pressure, state.fill, excess)
-
-
-def flow_across(solution: Solution) -> Array:
-    """The flow through the faces towards j + 1 at cavitation density, m³/s, shape (nx, ny); zero for the last j."""
-    net, state = solution.network, solution.state
-    north = net.conductance(solution.problem.mobility(state.pressure)[0])[1]
-    flow = -north * (np.roll(state.pressure, -1, axis=1) - state.pressure)
-    return np.asarray(flow if net.oblique is None else flow + _oblique_flows(solution)[1])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -360,7 +202,7 @@ def _ends(solution: Solution, row: int, last: int, x: Array) -> float:
     """The position where a film ends, m: θ extrapolated to 1 from the two nodes behind it."""
     if last + 2 >= x.size:
         return float(x[min(last + 1, x.size - 1)])
-    theta = _filled_fraction(solution)[:, row]
+    theta = filled_fraction(solution)[:, row]
     fall = theta[last + 1] - theta[last + 2]
     if fall <= 0:
         return float(x[last + 1])

@@ -4,12 +4,11 @@ import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.timing import one_time, working_time
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
@@ -17,32 +16,28 @@ from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
 from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, converted, under_load
 from roughfilm.rom.bearing.film import Searched, smooth_films
-from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs, density_ratio
+from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.bearing.totals.reported import in_order
 from roughfilm.rom.bearing.totals.whole import whole_bearing
-from roughfilm.rom.bearing.uncertainty import POSITIONS, grid_sequence, uncertainties
+from roughfilm.rom.bearing.uncertainty import POSITIONS, uncertainties
 from roughfilm.rom.bearing.warnings import (
-    grid_warnings,
     pressure_warnings,
     rupture_warnings,
     scene_warnings,
     window_warnings,
 )
-from roughfilm.rom.cavitation.discretise import Ends
+from roughfilm.rom.cavitation.evaluation.filling import density_ratio
+from roughfilm.rom.cavitation.evaluation.grids import grid_sequence, grid_warnings
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.cavitation.solve import Level, Solution
+from roughfilm.rom.cavitation.solve import Level, Solution, load_loops
 from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, Numerics, Result, SolverRun, with_uncertainties
-
-WARM_UP_CELLS = 40
-"""Number of cells of a film on which every compiled loop runs once."""
 
 FilmsOnGrid = Callable[[Bearing, int], SeparableBearing[Any]]
 """films(scene, cells), the films of a model on a grid of so many cells along and across."""
@@ -76,14 +71,11 @@ def solve(
     Raises
     ------
     InputError
-        If the model does not apply to the scene, or no film carries its load.
+        If no film carries the load of the scene.
     ConvergenceError
         If the film or its load does not converge.
     """
     cells = request.resolution
-    fits = solver.applies(scene)
-    if not fits.applies:
-        raise InputError(f"model: got {solver.name!r}; {fits.reason}")
     if scene.load is None:
         problem = film(scene)
         with one_time("start"):
@@ -104,7 +96,7 @@ def solve(
     warnings = [
         *grid_warnings(solution),
         *pressure_warnings(solution),
-        *rupture_warnings(solution),
+        *rupture_warnings(solution.state.pressure),
         *scene_warnings(scene, solution),
         *window_warnings(found.scene, solution),
     ]
@@ -242,14 +234,6 @@ def origin_of(roughness: FactorsOverGap | None) -> dict[str, Any]:
     """The entry "table" of provenance for flow factors of a table that was made for the result or kept from others."""
     origin = getattr(roughness, "origin", None)
     return {"table": dict(origin)} if origin else {}
-
-
-@cache
-def load_loops(wide: bool) -> None:
-    """Compile or load the compiled loops once in a process, so that they do not count in the time of a film."""
-    shape = Shape(thickness=lambda x, y: 1e-6 * (2 - x) + 0 * y, breaks=(0.0, 1.0), wide=wide)
-    ends = Ends(sides=None if wide else (0.0, 0.0))
-    balance(Problem(shape=shape, ends=ends, speed=1.0, viscosity=1.0), (WARM_UP_CELLS, WARM_UP_CELLS))
 
 
 def _fields(scene: Bearing, solution: Solution, more: Fields) -> dict[str, Field]:

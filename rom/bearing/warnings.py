@@ -1,12 +1,10 @@
 """Warnings about films outside the range of their grid, their lubricant laws or their scene."""
 
-import math
-
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.rounding import share
 from roughfilm.rom.bearing.corners import jumps
-from roughfilm.rom.bearing.pad import CELLS_PER_FEATURE
 from roughfilm.rom.bearing.roughness import RoughSurface
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
@@ -20,20 +18,6 @@ ROUNDING = 1e-9
 """Pressure over the largest one below which it is zero."""
 
 
-def grid_warnings(solution: Solution) -> list[str]:
-    """Warnings about a grid that is too coarse for the features of the wall."""
-    shape, grid = solution.problem.shape, solution.grid
-    warnings = []
-    for name, feature, spacing in zip(("along", "across"), shape.finest, (grid.spacing_x, grid.spacing_y), strict=True):
-        cells = feature / spacing.max() if spacing.max() > 0 else math.inf
-        if cells < 0.99 * CELLS_PER_FEATURE:
-            warnings.append(
-                f"the shortest feature of the wall {name} the sliding direction has {cells:.2g} cells; take at least "
-                f"{CELLS_PER_FEATURE / cells:.2g} times the resolution"
-            )
-    return warnings
-
-
 def pressure_warnings(solution: Solution) -> list[str]:
     """Warnings about pressures above the range of validity of a lubricant law."""
     problem, highest = solution.problem, float(solution.state.pressure.max())
@@ -44,9 +28,8 @@ def pressure_warnings(solution: Solution) -> list[str]:
     ]
 
 
-def rupture_warnings(solution: Solution) -> list[str]:
-    """A warning if a film without cavitation falls below the cavitation pressure."""
-    pressure = solution.state.pressure
+def rupture_warnings(pressure: Array) -> list[str]:
+    """A warning if a film without cavitation has a pressure above cavitation pressure, Pa, that is negative."""
     lowest, rounding = float(pressure.min()), ROUNDING * float(np.abs(pressure).max())
     if lowest >= -rounding:
         return []

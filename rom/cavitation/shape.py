@@ -9,6 +9,9 @@ from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 
 Thickness = Callable[[Array, Array], Array]
 
+CELLS_PER_FEATURE = 8
+"""Number of cells over a wave or a pocket at which the error of the load is a few per cent."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Shape:

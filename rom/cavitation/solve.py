@@ -3,13 +3,14 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
-from roughfilm.rom.cavitation.discretise import Faces, faces, network
+from roughfilm.rom.cavitation.discretise import Ends, Faces, faces, network
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.interpolation import carried, interpolated
 from roughfilm.rom.cavitation.network import Network, State
@@ -17,6 +18,7 @@ from roughfilm.rom.cavitation.newton import UnsettledError, settle
 from roughfilm.rom.cavitation.pressure_limit import at_constant_viscosity, pressure_limit, reduced_pressure
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
+from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.homogenization.gap_factors import mirrored_factors
 from roughfilm.rom.lubricants.compressibility import Incompressible
 
@@ -50,6 +52,9 @@ NEAR_PRESSURE_LIMIT = 0.5
 
 NEGATIVE_FILL_TOLERANCE = 1e-6
 """Tolerated negative filling fraction (round-off)."""
+
+WARM_UP_CELLS = 40
+"""Number of cells of a film on which every compiled loop runs once."""
 
 Progress = Callable[[float, str], None]
 
@@ -280,3 +285,11 @@ def mirrored(problem: Problem) -> Problem:
         roughness=None if shape.roughness is None else mirrored_factors(shape.roughness),
     )
     return replace(problem, shape=turned, speed=-problem.speed)
+
+
+@cache
+def load_loops(wide: bool) -> None:
+    """Compile or load the compiled loops once in a process, so that they do not count in the time of a film."""
+    shape = Shape(thickness=lambda x, y: 1e-6 * (2 - x) + 0 * y, breaks=(0.0, 1.0), wide=wide)
+    ends = Ends(sides=None if wide else (0.0, 0.0))
+    solve(Problem(shape=shape, ends=ends, speed=1.0, viscosity=1.0), (WARM_UP_CELLS, WARM_UP_CELLS))

@@ -211,7 +211,7 @@ class Model(Generic[SceneT]):
         with reported_to(progress), finite_arithmetic(self.name):
             checked, started = self.checked(scene, request), time.perf_counter()
             if not (fits := self.applies(scene)).applies:
-                raise InputError(f"model: got {self.name}, which does not apply to the scene: {fits.reason}")
+                raise InputError(f"model: got {self.name!r}; {fits.reason}")
             if not self.cost(scene, checked.resolution) <= MAX_COST_S:
                 raise InputError(
                     f"resolution: {checked.resolution} {self.resolution_meaning} would take {self.name} more than "

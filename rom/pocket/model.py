@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Unpack
 
 from roughfilm.contact.foundation.deferred import deferred
+from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 from roughfilm.rom.ladder.model import About, Applicability, Model, Progress, Resolutions
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Result
@@ -42,6 +43,15 @@ MAX_NODES = 768
 
 QUADRATURE_RESIDUAL_TOLERANCE = 1e-7
 """Default tolerance of the residual."""
+
+CAVITATING_CELLS = (64, 256, 1024)
+"""Numbers of cells from coarse to fine along a film that may rupture, the last one by default."""
+
+CAVITATING_RANGE = (8, 1_000_000)
+"""Smallest and largest number of cells along a film that may rupture."""
+
+CAVITATING_RESOLUTION_MEANING = "cells along the film"
+CAVITATING_RESIDUAL_MEANING = "largest net flow into a node over the largest flow through a face"
 
 QUADRATURE_RESOLUTION_MEANING = "Gauss points on each smooth piece of the gap"
 QUADRATURE_RESIDUAL_MEANING = "mean mismatch of dp/dx between the nodes, relative to its mean size"
@@ -116,4 +126,25 @@ def quadrature_model(*, applies: Callable[[Pocket], Applicability], **about: Unp
         cost=lambda scene, resolution: 1e-3 + 3e-6 * resolution**2 if scene.in_plan else 2e-4 + 1e-7 * resolution**2,
         applies=applies,
         compute=computed(grooves="rom.pocket.quadrature", plan="rom.pocket.plan.reynolds"),
+    )
+
+
+def cavitating_model(*, applies: Callable[[Pocket], Applicability], **about: Unpack[About]) -> Model[Pocket]:
+    """A model whose film ruptures at the cavitation pressure; the cost was measured for 256 to 4096 cells.
+
+    Cells in plan were measured with 32 to 128 columns.
+    """
+    least, most = CAVITATING_RANGE
+    grooves = Resolutions(least=least, most=most, default=CAVITATING_CELLS[-1], series=CAVITATING_CELLS)
+    return Model(
+        **about,
+        kind="pocket",
+        resolutions=in_plan_or_not(grooves),
+        resolution_meaning=f"{CAVITATING_RESOLUTION_MEANING}; {PLAN_RESOLUTION_MEANING}",
+        residual_meaning=CAVITATING_RESIDUAL_MEANING,
+        order=2,
+        tolerance=RESIDUAL_TOLERANCE,
+        cost=lambda scene, resolution: 5e-2 + 2.5e-5 * resolution**2 if scene.in_plan else 5e-3 + 2e-6 * resolution,
+        applies=applies,
+        compute=deferred("rom.pocket.cavitating.solve", "solve"),
     )

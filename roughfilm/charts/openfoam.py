@@ -19,7 +19,7 @@ from roughfilm.foamcases.openfoam.case_directory import CARD, read_card
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, Dictionary, control, write_files
 from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.foamcases.openfoam.program import Ended, succeed
-from roughfilm.foamcases.pocket.case import Card
+from roughfilm.foamcases.pocket.card import Card
 from roughfilm.foamcases.pocket.fields import read_channel
 from roughfilm.foamcases.pocket.models.navier_stokes import MODEL as NAVIER_STOKES
 from roughfilm.rom.ladder.request import Request
@@ -125,7 +125,7 @@ def pocket_load(scene: Pocket, resolution: int) -> Measured:
         write_block(uniform(scene, resolution, card.layers), SIDES, directory)
         ended, iterations = run(directory)
         channel = read_channel(directory)
-        least, greatest = channel.pressure_range()
+        least, greatest = channel.pressure_range(0.0)
         quantities = pocket_quantities(
             scene,
             load=channel.mean(channel.wall_pressure),

@@ -17,10 +17,11 @@ from roughfilm.rom.bearing.numbers import without_texture
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Outputs
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import load_loops
-from roughfilm.rom.bearing.uncertainty import IMBALANCE_FACTOR, cells_of, grid_sequence, grid_uncertainty
-from roughfilm.rom.bearing.warnings import grid_warnings, scene_warnings
+from roughfilm.rom.bearing.uncertainty import IMBALANCE_FACTOR
+from roughfilm.rom.bearing.warnings import scene_warnings
+from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty, grid_warnings
 from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.solve import load_loops
 from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.homogenization.gap_factors import GapFactors
 from roughfilm.rom.ladder.model import Progress, silent

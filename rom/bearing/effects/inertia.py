@@ -15,10 +15,9 @@ from roughfilm.rom.bearing.inertia import Inertia, inertia
 from roughfilm.rom.bearing.numbers import bearing_numbers, without_texture
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import load_loops
 from roughfilm.rom.bearing.texture import Texture
-from roughfilm.rom.bearing.uncertainty import cells_of, grid_sequence, grid_uncertainty
-from roughfilm.rom.cavitation.solve import solve
+from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty
+from roughfilm.rom.cavitation.solve import load_loops, solve
 from roughfilm.rom.ladder.model import Model, find, of_kind
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene

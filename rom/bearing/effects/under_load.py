@@ -18,11 +18,10 @@ from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.quantities import load_of, nominal_area, scene_positions
 from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import load_loops
-from roughfilm.rom.bearing.uncertainty import cells_of
+from roughfilm.rom.cavitation.evaluation.grids import cells_of
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.network import State
-from roughfilm.rom.cavitation.solve import Solution, solve
+from roughfilm.rom.cavitation.solve import Solution, load_loops, solve
 from roughfilm.rom.ladder.model import Progress, silent
 
 MAX_THINNING = 30.0

@@ -10,7 +10,7 @@ from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.film import averaged_film
 from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import load_loops
+from roughfilm.rom.cavitation.solve import load_loops
 
 CONTACT_FILM = 2.0
 """Expected film thickness over the rms height where asperities carry the load."""

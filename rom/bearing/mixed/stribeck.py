@@ -15,10 +15,10 @@ from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
 from roughfilm.rom.bearing.mixed.lift_off import lift_off_speed
 from roughfilm.rom.bearing.mixed.wall import asperities_of
-from roughfilm.rom.bearing.quantities import peak_pressure
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.solve import load_loops
+from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
 from roughfilm.rom.cavitation.network import State
+from roughfilm.rom.cavitation.solve import load_loops
 from roughfilm.rom.ladder.model import Progress, silent
 
 RESOLUTION = 64

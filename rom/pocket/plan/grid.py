@@ -34,9 +34,14 @@ class PlanGrid:
         return float(self.x[1] - self.x[0]), float(self.y[1] - self.y[0])
 
 
+def columns_across(plan: Plan, resolution: int) -> int:
+    """The number of columns across a cell with ``resolution`` columns along it: as many per length."""
+    return max(MIN_ACROSS, round(resolution * plan.breadth / plan.length))
+
+
 def plan_grid(plan: Plan, resolution: int) -> PlanGrid:
     """The grid with ``resolution`` columns along the cell, and as many across per length."""
-    across = max(MIN_ACROSS, round(resolution * plan.breadth / plan.length))
+    across = columns_across(plan, resolution)
     x = np.linspace(-plan.length / 2, plan.length / 2, resolution + 1)
     y = np.linspace(-plan.breadth / 2, plan.breadth / 2, across + 1)
     middle_x, middle_y = (x[1:] + x[:-1])[:, None] / 2, (y[1:] + y[:-1]) / 2

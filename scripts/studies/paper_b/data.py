@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.bearing.quantities import density_ratio, film_ends
+from roughfilm.rom.bearing.quantities import film_ends
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.evaluation.filling import density_ratio
 from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.scene import load_entries, read_scene
 from scripts.studies.study import Advance

@@ -8,9 +8,10 @@ from scipy.integrate import quad
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.closed_forms import barus_pressure, linear_slider, rayleigh_step, sommerfeld
-from roughfilm.rom.bearing.quantities import friction, journal_load
+from roughfilm.rom.bearing.quantities import journal_load
 from roughfilm.rom.bearing.shapes import Journal, Linear, Step
 from roughfilm.rom.cavitation.discretise import Ends
+from roughfilm.rom.cavitation.evaluation.friction import friction
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.lubricants.viscosity import Barus

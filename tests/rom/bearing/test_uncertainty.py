@@ -9,14 +9,14 @@ from places import SCENES
 
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.quantities import film_ends
-from roughfilm.rom.bearing.uncertainty import (
+from roughfilm.rom.bearing.uncertainty import _positions
+from roughfilm.rom.cavitation.balance import CAVITY
+from roughfilm.rom.cavitation.evaluation.grids import (
     COARSE_SAFETY_FACTOR,
     GRID_SAFETY_FACTOR,
-    _positions,
     grid_uncertainty,
     observed_order,
 )
-from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result

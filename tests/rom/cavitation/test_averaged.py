@@ -7,9 +7,10 @@ import pytest
 from scipy.integrate import quad
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.bearing.quantities import boundary_flows, flow_along
+from roughfilm.rom.bearing.quantities import boundary_flows
 from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.discretise import Ends, faces
+from roughfilm.rom.cavitation.evaluation.flows import flow_along
 from roughfilm.rom.cavitation.grid import grid
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from roughfilm.rom.bearing.quantities import flow_along
 from roughfilm.rom.cavitation.discretise import Ends
+from roughfilm.rom.cavitation.evaluation.flows import flow_along
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import solve

@@ -1,0 +1,1 @@
+"""Numbers of a converged film that all kinds of scenes share: flows, friction, peaks, errors by the grid."""

@@ -1,0 +1,35 @@
+"""The flows through the faces of a film."""
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.cavitation.solve import Solution
+
+
+def flow_along(solution: Solution) -> Array:
+    """The flow through the faces towards i + 1 at cavitation density, m³/s (m²/s if wide), shape (nx, ny)."""
+    net, state = solution.network, solution.state
+    excess = solution.problem.compression(state.pressure)[0]
+    mobility = solution.problem.mobility(state.pressure)[0]
+    east = net.conductance(mobility)[0]
+    ahead = np.roll(excess, -1, axis=0)
+    drift = net.couette * (state.fill + net.upstream * excess + (1 - net.upstream) * ahead)
+    rise = np.roll(state.pressure, -1, axis=0) - state.pressure
+    flow = net.least_flow(drift - east * rise, state, excess, mobility)
+    return np.asarray(flow + (0.0 if net.oblique is None else _oblique_flows(solution)[0]))
+
+
+def _oblique_flows(solution: Solution) -> tuple[Array, Array]:
+    """The additional flows of an oblique lay towards i + 1 and j + 1, m³/s."""
+    assert solution.network.oblique is not None
+    state, problem = solution.state, solution.problem
+    excess, mobility = problem.compression(state.pressure)[0], problem.mobility(state.pressure)[0]
+    return solution.network.oblique.flows(mobility, state.pressure, state.fill, excess)
+
+
+def flow_across(solution: Solution) -> Array:
+    """The flow through the faces towards j + 1 at cavitation density, m³/s, shape (nx, ny); zero for the last j."""
+    net, state = solution.network, solution.state
+    north = net.conductance(solution.problem.mobility(state.pressure)[0])[1]
+    flow = -north * (np.roll(state.pressure, -1, axis=1) - state.pressure)
+    return np.asarray(flow if net.oblique is None else flow + _oblique_flows(solution)[1])
