@@ -7,11 +7,11 @@ sliding one, the velocities u along x and v along y, and the flow m upward throu
     Re [ ∂(h v u)/∂x + ∂(h v v)/∂y + ∂(v m)/∂Y ] = -h ∂p/∂y + (1/h) ∂²v/∂Y²,
     m = -∂/∂x (h ∫_0^Y u dY) - ∂/∂y (h ∫_0^Y v dY),      m(Y = 1) = 0.
 
-Across the film u = Y + Σ a_k φ_k(Y) and v = Σ b_k φ_k(Y) (:mod:`roughfilm.rom.pocket.basis`), tested with the same φ_k.
-Only φ_0 carries flow and couples to the pressure, which is uniform across the film. The amplitudes and the pressure lie
-on a staggered grid, on which each cell balances its momentum and each node its flow. The momentum through a face is
-reconstructed at each Y from the upstream side. On a film that does not vary along y the method is that of
-:mod:`roughfilm.rom.pocket.thin_film`.
+Across the film u = Y + Σ a_k φ_k(Y) and v = Σ b_k φ_k(Y) (:mod:`roughfilm.rom.thin_film.basis`), and the equations are
+tested with the same φ_k. Only φ_0 carries flow and couples to the pressure, which is uniform across the film. The
+amplitudes and the pressure lie on a staggered grid, on which each cell balances its momentum and each node its flow.
+The momentum through a face is reconstructed at each Y from the upstream side. On a film that does not vary along y the
+method is that of :mod:`roughfilm.rom.thin_film.thin_film`.
 """
 
 from dataclasses import dataclass
@@ -20,9 +20,9 @@ from functools import cached_property
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.pocket.basis import STIFFNESS, Basis
 from roughfilm.rom.pocket.plan.film import kernels
 from roughfilm.rom.pocket.plan.film.sheet import Sheet
+from roughfilm.rom.thin_film.basis import STIFFNESS, Basis
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,7 +123,8 @@ class Film:
     def _tests(self) -> tuple[Array, Array]:
         """The test functions and their derivatives with the weights of the points, shape (points, n)."""
         basis = self.basis
-        return tuple(np.ascontiguousarray((basis.weights * one).T) for one in (basis.shape, basis.slope))
+        weights = basis.weights
+        return np.ascontiguousarray((weights * basis.shape).T), np.ascontiguousarray((weights * basis.slope).T)
 
     def _sampled(self, flow: SheetFlow, upwind: Array, *, known: bool, shear: float) -> Velocities:
         """The velocities of amplitudes and ``shear`` times Y, with known directions of reconstruction or their own."""

@@ -49,13 +49,14 @@ def minimal_residual(
         hessenberg, number = np.zeros((RESTART + 1, RESTART)), 0
         target = np.zeros(RESTART + 1)
         target[0] = begin
-        weights = np.zeros(0)
+        weights: Array = np.zeros(0)
         while number < RESTART and products < most:
             product = matrix(preconditioner(directions[number]))
             products, number = products + 1, number + 1
             kernels.orthogonalise(directions, product, hessenberg[:, number - 1], number)
-            weights, *_ = np.linalg.lstsq(hessenberg[: number + 1, :number], target[: number + 1])
-            reached = float(np.linalg.norm(hessenberg[: number + 1, :number] @ weights - target[: number + 1]))
+            part, wanted = hessenberg[: number + 1, :number], target[: number + 1]
+            weights = np.asarray(np.linalg.lstsq(part, wanted)[0])
+            reached = float(np.linalg.norm(part @ weights - wanted))
             if not reached > tolerance * size or hessenberg[number, number - 1] == 0:
                 break
         combined = np.empty_like(right)

@@ -5,14 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.pocket.basis import Basis
 from roughfilm.rom.pocket.plan.film.equations import Film, SheetFlow, Velocities
 from roughfilm.rom.pocket.plan.film.krylov import minimal_residual
 from roughfilm.rom.pocket.plan.film.parallel import ParallelFilm
 from roughfilm.rom.pocket.plan.film.sheet import Sheet
-
-NEWTON_STEPS = 12
-"""Largest number of Newton steps at one Reynolds number."""
+from roughfilm.rom.thin_film.basis import Basis
+from roughfilm.rom.thin_film.newton import NEWTON_STEPS
 
 MAX_PRODUCTS = 240
 """Largest number of products with the matrix in a Newton step."""
@@ -23,18 +21,16 @@ FORCING = (1e-4, 1e-2)
 TOLERANCE_SHARE = 0.1
 """Tolerance of the last linear system over the tolerance of Newton's method."""
 
-RESPONSE_TOLERANCE = 1e-6
-"""Tolerance of the linear response to a force, relative to the force."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class LinearFilm:
-    """The equations of a film, linear about a flow, with their preconditioner."""
+    """The equations of a film, linear about a flow, with their preconditioner and the residual of the flow."""
 
     film: Film
     parallel: ParallelFilm
     flow: SheetFlow
     velocities: Velocities
+    residual: float
 
     def response(self, imbalance: Array, *, tolerance: float) -> SheetFlow | None:
         """The change of the flow that removes an imbalance, given as a flat vector; None if it is not found."""
@@ -52,37 +48,27 @@ class LinearFilm:
         return SheetFlow(flat=found.solution, shape=shape) if found.residual <= tolerance else None
 
 
-@dataclass(frozen=True, kw_only=True)
-class Solved:
-    """A flow, its linear equations if it converged, its residual and the number of Newton steps."""
+def attempt(
+    sheet: Sheet, basis: Basis, reynolds_number: float, flow: SheetFlow, tolerance: float
+) -> tuple[SheetFlow, LinearFilm | None, int]:
+    """The flow at one Reynolds number, its linear equations (None without convergence), and the number of steps.
 
-    flow: SheetFlow
-    linear: LinearFilm | None
-    residual: float
-    steps: int
-
-
-def newton(sheet: Sheet, basis: Basis, reynolds_number: float, flow: SheetFlow | None, tolerance: float) -> Solved:
-    """The flow at one Reynolds number from that at another one, or from shear alone.
-
-    The linear systems are solved the better the smaller the residual is.
+    The tolerance of the linear systems decreases with the residual.
     """
     film = Film(sheet=sheet, basis=basis, reynolds_number=reynolds_number)
-    parallel, least, residual = ParallelFilm.of(film), np.inf, np.inf
-    flow = flow or film.still()
-    for steps in range(NEWTON_STEPS + 1):
+    parallel, least, steps = ParallelFilm.of(film), np.inf, 0
+    while True:
         velocities = film.velocities(flow)
         imbalance = film.imbalance(flow, velocities)
         residual = float(np.abs(imbalance.flat).max() / film.force(flow, velocities))
-        linear = LinearFilm(film=film, parallel=parallel, flow=flow, velocities=velocities)
+        linear = LinearFilm(film=film, parallel=parallel, flow=flow, velocities=velocities, residual=residual)
         if residual <= tolerance and steps:
-            return Solved(flow=flow, linear=linear, residual=residual, steps=steps)
+            return flow, linear, steps
         if not residual < 100 * least or steps == NEWTON_STEPS:
-            break
+            return flow, None, steps
         least = min(least, residual)
         forcing = min(max(TOLERANCE_SHARE * max(residual, tolerance / residual), FORCING[0]), FORCING[1])
         change = linear.response(imbalance.flat, tolerance=forcing)
         if change is None:
-            break
-        flow = SheetFlow(flat=flow.flat + change.flat, shape=flow.shape)
-    return Solved(flow=flow, linear=None, residual=residual, steps=steps)
+            return flow, None, steps
+        flow, steps = SheetFlow(flat=flow.flat + change.flat, shape=flow.shape), steps + 1

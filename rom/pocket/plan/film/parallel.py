@@ -1,9 +1,9 @@
 r"""The flow of small disturbances of shear between parallel walls, by Fourier transforms, as a preconditioner.
 
-For u = Y + u', v = v' between walls with the distance h, the equations of :mod:`roughfilm.rom.pocket.plan.film.equations`
-have constant coefficients, so that each pair of wave numbers is separate. With A_u and A_v the matrices of viscosity and
-advection by Y, which depend on the wave number along x alone, C what v adds to the balance of u, and G and D the
-discrete gradients and divergences,
+For u = Y + u' and v = v' between walls with the distance h, the equations of
+:mod:`roughfilm.rom.pocket.plan.film.equations` have constant coefficients, so that each pair of wave numbers is
+separate. With A_u and A_v the matrices of viscosity and advection by Y, which depend on the wave number along x alone,
+C what v adds to the balance of u, and G and D the discrete gradients and divergences,
 
     A_u a + C b + G_x p e_0 = r_u,    A_v b + G_y p e_0 = r_v,    D_x a_0 + D_y b_0 = r_p.
 """
@@ -16,8 +16,8 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.pocket.basis import STIFFNESS
 from roughfilm.rom.pocket.plan.film.equations import Film, SheetFlow
+from roughfilm.rom.thin_film.basis import STIFFNESS
 
 Waves = NDArray[np.complex128]
 

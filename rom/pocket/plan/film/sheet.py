@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.pocket.columns import columns
-from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.plan.plan import Plan
+from roughfilm.rom.thin_film.columns import columns
+from roughfilm.rom.thin_film.gap import Gap
 
 RIM_DENSITY = 4.0
 """Density of nodes at the rims of dimples over that far from one; the preconditioner is for almost equal cells."""
@@ -123,5 +123,10 @@ def _nodes(film: float, period: float, breaks: tuple[float, ...], number: int) -
 def _rows(lengths: Array, *, second_order: bool) -> Array:
     """The ``rows`` of an axis whose nodes have these distances."""
     before, after = np.roll(lengths, 1), np.roll(lengths, -1)
-    weights = [lengths / (lengths + before), lengths / (lengths + after), lengths / (2 * before), before / (2 * lengths)]
+    weights = [
+        lengths / (lengths + before),
+        lengths / (lengths + after),
+        lengths / (2 * before),
+        before / (2 * lengths),
+    ]
     return np.stack([lengths, (lengths + before) / 2, *(weight * second_order for weight in weights)])

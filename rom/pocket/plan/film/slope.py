@@ -9,12 +9,14 @@ is the divergence of
 
 All derivatives are at constant z. The divergence is tested with the φ_k and integrated by parts, so that no second
 derivative of the wall is needed. At a corner of the wall each T is smoothed over the decay length of a disturbance, as
-over grooves (:mod:`roughfilm.rom.pocket.slope`):
+over grooves (:mod:`roughfilm.rom.thin_film.slope`):
 
     T - (h/π)² ∇²T = T of the thin film.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, Self
 
 import numpy as np
 import scipy
@@ -22,7 +24,7 @@ import scipy
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.pocket.plan.film.equations import Film, SheetFlow, Velocities
 from roughfilm.rom.pocket.plan.film.sheet import Sheet
-from roughfilm.rom.pocket.slope import DECAY_LENGTH
+from roughfilm.rom.thin_film.slope import DECAY_LENGTH
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,7 +35,7 @@ class Slopes:
     of_v: Array
 
     @classmethod
-    def of(cls, sheet: Sheet) -> "Slopes":
+    def of(cls, sheet: Sheet) -> Self:
         """The slopes over the cells of a sheet."""
         (ahead_x, ahead_y), (around_x, around_y) = sheet.ahead, sheet.around
         nodes, corners = sheet.thickness[2:]
@@ -65,7 +67,7 @@ def imbalance(film: Film, flow: SheetFlow, velocities: Velocities) -> Array:
 
     square = (_at_nodes(w_u**2, ahead_x, 0) + _at_nodes(w_v**2, ahead_y, 1)) / 2
     normal = film.reynolds_number * (square - along(moment_u, fall_u) - across(moment_v, fall_v))
-    at_nodes, at_corners = _smoothing(sheet)
+    at_nodes, at_corners = _smoothers(sheet)
     xx, yy = at_nodes(2 * along(u, shear_u) + normal), at_nodes(2 * across(v, shear_v) + normal)
     xy = _rise(u, 1) / ahead_y[:, None] + _mean(shear_u * steep_u[1], 1)
     xy = at_corners(xy + _rise(v, 0) / ahead_x[..., None] + _mean(shear_v * steep_v[0], 0))
@@ -82,7 +84,7 @@ def imbalance(film: Film, flow: SheetFlow, velocities: Velocities) -> Array:
 
 
 def vertical(film: Film, velocities: Velocities) -> tuple[Array, Array]:
-    """The velocity w = m + (1 - Y)... across the film at the places of u and of v, shape (nx, ny, points)."""
+    """The velocity w = m - (1 - Y) (u ∂h/∂x + v ∂h/∂y) across the film at the places of u and of v."""
     sheet, slopes, lower = film.sheet, Slopes.of(film.sheet), 1 - film.basis.nodes
     (ahead_x, ahead_y), (area_u, area_v, _) = sheet.ahead, sheet.areas
     v_there = _at_nodes(_mean(velocities.v, 0), ahead_y, 1)
@@ -112,27 +114,35 @@ def _at_nodes(values: Array, ahead: Array, axis: int) -> Array:
     return weight * np.roll(values, 1, axis=axis) + (1 - weight) * values
 
 
-def _smoothing(sheet: Sheet):
-    """The functions that smooth values at the nodes, and values at the corners, over the decay length."""
+Smoother = Callable[[Array], Array]
+"""Function that smooths values at places, shape (nx, ny, points)."""
+
+
+def _smoothers(sheet: Sheet) -> tuple[Smoother, Smoother]:
+    """The functions that smooth values at the nodes and at the corners of cells over the decay length."""
     (ahead_x, ahead_y), (around_x, around_y) = ((x[:, 0], y) for x, y in (sheet.ahead, sheet.around))
-    nodes = _smoother(sheet.thickness[2], (ahead_x, ahead_y), (around_x, around_y))
-    corners = _smoother(
-        sheet.thickness[3], (np.roll(around_x, -1), np.roll(around_y, -1)), (ahead_x, ahead_y)
+    beyond = np.roll(around_x, -1), np.roll(around_y, -1)
+    return (
+        _smoother(sheet.thickness[2], (ahead_x, ahead_y), (around_x, around_y)),
+        _smoother(sheet.thickness[3], beyond, (ahead_x, ahead_y)),
     )
-    return nodes, corners
 
 
-def _smoother(h, steps, widths):
+def _smoother(h: Array, steps: tuple[Array, Array], widths: tuple[Array, Array]) -> Smoother:
     """The function that solves f - (DECAY_LENGTH h)² ∇²f = values at places with these steps ahead and widths."""
-    second = []
-    for step, width in zip(steps, widths, strict=True):
-        size = step.size
-        ahead = scipy.sparse.csr_array((np.ones(size), (np.arange(size), (np.arange(size) + 1) % size)))
-        rise = scipy.sparse.diags_array(1 / step) @ (ahead - scipy.sparse.eye_array(size))
-        before = scipy.sparse.csr_array((np.ones(size), (np.arange(size), (np.arange(size) - 1) % size)))
-        second.append(scipy.sparse.diags_array(1 / width) @ (scipy.sparse.eye_array(size) - before) @ rise)
-    identities = [scipy.sparse.eye_array(step.size) for step in steps]
-    laplacian = scipy.sparse.kron(second[0], identities[1]) + scipy.sparse.kron(identities[0], second[1])
-    matrix = scipy.sparse.eye_array(h.size) - scipy.sparse.diags_array((DECAY_LENGTH * h.ravel()) ** 2) @ laplacian
+    curvatures = [_curvature(step, width) for step, width in zip(steps, widths, strict=True)]
+    laplacian = scipy.sparse.kron(curvatures[0], scipy.sparse.eye_array(h.shape[1]))
+    laplacian += scipy.sparse.kron(scipy.sparse.eye_array(h.shape[0]), curvatures[1])
+    scale = scipy.sparse.diags_array((DECAY_LENGTH * h.ravel()) ** 2)
+    matrix = scipy.sparse.eye_array(h.size) - scale @ laplacian
     factors = scipy.sparse.linalg.splu(scipy.sparse.csc_array(matrix))
-    return lambda values: factors.solve(values.reshape(h.size, -1)).reshape(values.shape)
+    return lambda values: np.asarray(factors.solve(values.reshape(h.size, -1))).reshape(values.shape)
+
+
+def _curvature(step: Array, width: Array) -> Any:
+    """The matrix of the second derivative on a periodic row of places with these steps ahead and widths."""
+    number = np.arange(step.size)
+    places = np.concatenate([number, number]), np.concatenate([number, (number + 1) % step.size])
+    rise = scipy.sparse.csr_array((np.concatenate([-1 / step, 1 / step]), places))
+    places = np.concatenate([number, number]), np.concatenate([number, (number - 1) % step.size])
+    return scipy.sparse.csr_array((np.concatenate([1 / width, -1 / width]), places)) @ rise
