@@ -31,6 +31,11 @@ class Patch:
     entries: dict[str, str]
 
 
+def in_space(plane: Array) -> Array:
+    """The vertices of a mesh that is one cell wide, shape (nx + 1, ny + 1, 2, 3), from those in a plane."""
+    return np.stack([np.pad(plane, ((0, 0), (0, 0), (0, 1)), constant_values=z) for z in (0.0, 1.0)], axis=2)
+
+
 def write_block(
     vertices: Array,
     sides: tuple[Patch, ...],
@@ -61,7 +66,7 @@ def write_block(
 
     shape = tuple(n - 1 for n in vertices.shape[:3])
     kept = np.ones(shape, dtype=bool) if kept is None else kept
-    used = _corners(kept)
+    used = used_points(kept)
     cell, point = _numbers(kept), _numbers(used)
 
     inner: list[Labels] = []
@@ -123,7 +128,7 @@ def _numbers(there: Mask) -> Labels:
     return np.asarray(np.cumsum(there.ravel(order="F")) - 1).reshape(there.shape, order="F")
 
 
-def _corners(kept: Mask) -> Mask:
+def used_points(kept: Mask) -> Mask:
     """The mask of the points that are a corner of a kept cell."""
     used = np.zeros([n + 1 for n in kept.shape], dtype=bool)
     for low in product((0, 1), repeat=3):

@@ -3,16 +3,15 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.foamcases.conformal.orthogonal import orthogonal
 from roughfilm.foamcases.openfoam.allrun import allrun
-from roughfilm.foamcases.openfoam.block_mesh import write_block
+from roughfilm.foamcases.openfoam.block_mesh import in_space, write_block
 from roughfilm.foamcases.openfoam.case_directory import write_papers, write_whole, written_for
 from roughfilm.foamcases.openfoam.dialect import Dialect
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, write_dictionaries, write_second_try
+from roughfilm.foamcases.openfoam.relaxation import velocity_relaxation
 from roughfilm.foamcases.openfoam.residuals import Judged
-from roughfilm.foamcases.pocket.mesh.orthogonal import orthogonal
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.pocket.scene import Pocket
 
@@ -20,12 +19,6 @@ LAYERS_PER_COLUMN = 1 / 5
 """Number of cells across the film over the number along it."""
 
 MIN_LAYERS = 4
-
-UNRELAXED_COLUMNS = 12.0
-"""Product of the number of columns and 1 less the relaxation of velocity, at which runs need the fewest iterations."""
-
-MIN_RELAXATION = 0.85
-"""Least relaxation of velocity in SIMPLEC."""
 
 README = """\
 One period of a groove under a sliding wall, for OpenFOAM's simpleFoam. Run it with ./Allrun
@@ -53,8 +46,8 @@ class Card:
 
     @property
     def relaxation(self) -> float:
-        """The relaxation of velocity in SIMPLEC, which is nearer to 1 for smaller cells."""
-        return max(MIN_RELAXATION, 1 - UNRELAXED_COLUMNS / self.columns)
+        """The relaxation of velocity in SIMPLEC."""
+        return velocity_relaxation(self.columns)
 
 
 def vertices_of(scene: Pocket, resolution: int) -> Array:
@@ -67,7 +60,7 @@ def vertices_of(scene: Pocket, resolution: int) -> Array:
     """
     layers = max(MIN_LAYERS, round(resolution * LAYERS_PER_COLUMN))
     plane = orthogonal(scene.gap(), resolution, layers)
-    return np.stack([np.pad(plane, ((0, 0), (0, 0), (0, 1)), constant_values=z) for z in (0.0, 1.0)], axis=2)
+    return in_space(plane)
 
 
 def write_case(

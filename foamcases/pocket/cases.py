@@ -3,12 +3,12 @@
 from pathlib import Path
 
 from roughfilm.foamcases.openfoam.case_directory import read_card
+from roughfilm.foamcases.openfoam.one_flow import Run, numerics_of
 from roughfilm.foamcases.pocket.case import Card
 from roughfilm.foamcases.pocket.fields import read_channel
-from roughfilm.foamcases.pocket.run import Run
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
-from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun
+from roughfilm.rom.ladder.result import Field, Result
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 
@@ -18,7 +18,7 @@ def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Res
     model, keeps = solver.name, solver.keeps
     card, channel = read_card(directory, Card), read_channel(directory)
     film, pascal = scene.geometry.film, scene.pressure_unit
-    lowest, highest = channel.pressure_range()
+    lowest, highest = channel.pressure_range(0.0)
     return Result(
         model=model,
         quantities=pocket_quantities(
@@ -38,19 +38,7 @@ def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Res
             "cell_velocity": Field(values=channel.velocity * scene.speed, unit="m/s"),
             "cell_pressure": Field(values=channel.pressure * pascal, unit="Pa"),
         },
-        numerics=Numerics(
-            residual=run.residual,
-            iterations=run.tries[-1].iterations,
-            cpu_s=run.cpu_s,
-            wall_s=run.wall_s,
-            degrees_of_freedom=3 * card.columns * card.layers,
-            resolution=card.resolution,
-            tolerance=card.tolerance,
-            scheme=card.scheme,
-            processes=card.processes,
-            runs=tuple(SolverRun(outcome=str(t.outcome), iterations=t.iterations, recipe=t.recipe) for t in run.tries),
-            details={"velocity_relaxation": card.relaxation, "reynolds_number": card.reynolds_number},
-        ),
+        numerics=numerics_of(card, run, unknowns=3 * card.columns * card.layers, details={}),
         provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=solver.sources, openfoam=run.version),
         warnings=(*cautions(scene), *ruptures(scene, lowest), *run.warnings),
     )

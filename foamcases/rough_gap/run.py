@@ -45,7 +45,7 @@ class GapRun(CaseRun):
 
 
 def run_gap(directory: Path, progress: Progress = silent) -> GapRun:
-    """Check the mesh and run each drive; errors as in :func:`roughfilm.foamcases.pocket.run.run_case`.
+    """Check the mesh and run each drive; errors as in :func:`roughfilm.foamcases.openfoam.one_flow.run_flow`.
 
     A directory without cases gives a run without flows and the warning ``SEALED``.
     """

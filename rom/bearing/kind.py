@@ -248,8 +248,9 @@ KIND = Kind(
         "load.pressure": ("force", "force_per_width"),
         "load.force": ("pressure", "force_per_width"),
         "load.force_per_width": ("pressure", "force"),
-        "boundary.inlet.theta": ("pressure",),
+        "boundary.inlet.theta": ("pressure", "ram_factor"),
         "boundary.inlet.pressure": ("theta",),
+        "boundary.inlet.ram_factor": ("theta",),
     },
     sweeping=Sweeping(
         given={"shape": None, "inlet_theta": 1.0, "compression": NEVER_COMPRESSED, "width_ratio": 1e3},

@@ -87,7 +87,8 @@ def _share_of_wide(geometry: AnyShape) -> float:
 def _largest_at_edges(scene: Bearing) -> float:
     """The largest pressure above ambient at an edge, Pa."""
     edges = scene.boundary
-    return max(edges.inlet.pressure or 0.0, edges.outlet.pressure, edges.sides.low, edges.sides.high)
+    inlet = scene.inlet_pressure if edges.inlet.theta is None else 0.0
+    return max(inlet, edges.outlet.pressure, edges.sides.low, edges.sides.high)
 
 
 def without_texture(scene: Bearing) -> Bearing:

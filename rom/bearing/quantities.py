@@ -94,7 +94,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         values["attitude_angle"] = (journal_load(scene.geometry, scene_positions(solution), force)[0], "deg")
     if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
         values["friction_coefficient"] = (resistance / load, "1")
-        values |= {name: (number, "1") for name, number in _numbers_of_load(scene, specific).items()}
+        values |= {name: (number, "1") for name, number in numbers_of_load(scene, specific).items()}
     return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
 
 
@@ -107,7 +107,7 @@ def _torque(scene: Bearing, between: Array, rows: Array, grid: Grid) -> float | 
     return float((rows * grid.radius).sum() + (between * radius_between(grid)).sum())
 
 
-def _numbers_of_load(scene: Bearing, specific: float) -> dict[str, float]:
+def numbers_of_load(scene: Bearing, specific: float) -> dict[str, float]:
     """The Hersey number of a specific load, Pa, and the Sommerfeld number of a journal."""
     geometry, radius, speed = scene.geometry, scene.turning_radius, abs(scene.motion.speed)
     frequency = speed / geometry.length if radius is None else speed / (2 * math.pi * radius)

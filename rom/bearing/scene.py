@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator, model_validator
 
-from roughfilm.contact.foundation.entries import InUnit, Part, PositiveNumber
+from roughfilm.contact.foundation.entries import InUnit, Part, PositiveNumber, plain_number
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import rotational_speed, with_unit
 from roughfilm.rom.bearing.asperity_contact import AsperityContact
@@ -42,7 +42,7 @@ class BearingLubricant(Fluid):
     Attributes
     ----------
     viscosity : viscosity at cavitation pressure, Pa s.
-    density : density, kg/m³, needed only for the effect of inertia and for a kinematic viscosity.
+    density : density, kg/m³, needed only for inertia, for a ram pressure and for a kinematic viscosity.
     cavitation_pressure : cavitation pressure above ambient, Pa.
     compressibility : law of the density over pressure.
     piezoviscosity : law of the viscosity over pressure.
@@ -75,21 +75,26 @@ class BearingMotion(Part):
 class Inlet(Part):
     """The pressure above ambient, Pa, or the density ratio θ at the inlet; ambient pressure by default.
 
-    θ < 1 is starved, θ = 1 flooded at cavitation pressure, and θ > 1 pressurised by the law of compressibility.
+    θ < 1 is starved, θ = 1 flooded at cavitation pressure, and θ > 1 pressurised by the law of compressibility. The ram
+    pressure ``ram_factor`` ρ u²/2 of the liquid that meets the bearing at the sliding speed u adds to the pressure.
 
     Attributes
     ----------
     theta : density ratio at the inlet; below 1 starved, 1 flooded, above 1 pressurised.
     pressure : pressure at the inlet above ambient, Pa, in place of theta.
+    ram_factor : ram pressure over ρ u²/2, which is added to the pressure at the inlet.
     """
 
     theta: PositiveNumber | None = None
     pressure: GaugePressure | None = None
+    ram_factor: Annotated[float, BeforeValidator(plain_number)] = 0.0
 
     @model_validator(mode="after")
     def _one_of_two(self) -> Self:
         if self.theta is not None and self.pressure is not None:
             raise ValueError("got both theta and pressure; give one of them")
+        if self.theta is not None and self.ram_factor:
+            raise ValueError("got theta, which determines the pressure, and ram_factor; give one of them")
         return self
 
 
@@ -194,10 +199,15 @@ class Bearing(Scene):
     @model_validator(mode="after")
     def _can_be_solved(self) -> Self:
         lowest = self.lubricant.cavitation_pressure
-        places = {"inlet": self.boundary.inlet.pressure, "outlet": self.boundary.outlet.pressure}
+        if self.boundary.inlet.ram_factor and self.lubricant.density is None:
+            raise ValueError(
+                f"boundary.inlet.ram_factor: got {self.boundary.inlet.ram_factor:g} without lubricant.density, by "
+                "which the ram pressure is determined; give the density"
+            )
+        inlet = self.inlet_pressure if self.boundary.inlet.theta is None else None
+        places = {"inlet": inlet, "outlet": self.boundary.outlet.pressure}
         sides = {"sides.low": self.boundary.sides.low, "sides.high": self.boundary.sides.high}
-        for place, pressure in (places | (sides if self.wide is False else {})).items():
-            given = 0.0 if pressure is None and place == "inlet" and self.boundary.inlet.theta is None else pressure
+        for place, given in (places | (sides if self.wide is False else {})).items():
             if given is not None and given < lowest:
                 raise ValueError(
                     f"boundary.{place}.pressure: got {given!r} Pa; it must be at least the cavitation pressure, "
@@ -315,6 +325,15 @@ class Bearing(Scene):
         return self.geometry.pieces if isinstance(self.geometry, Ring) else 1
 
     @property
+    def inlet_pressure(self) -> float:
+        """The pressure at the inlet above ambient, Pa, with the ram pressure; the cavitation pressure if starved."""
+        inlet, lubricant = self.boundary.inlet, self.lubricant
+        if inlet.theta is None:
+            return (inlet.pressure or 0.0) + inlet.ram_factor * (lubricant.density or 0.0) * self.motion.speed**2 / 2
+        above = lubricant.compressibility.pressure_at(inlet.theta) if inlet.theta > 1 else 0.0
+        return lubricant.cavitation_pressure + above
+
+    @property
     def ends(self) -> "Ends":
         """The boundary conditions, with pressures above cavitation pressure."""
         from roughfilm.rom.cavitation.discretise import Ends  # slow to import
@@ -322,7 +341,7 @@ class Bearing(Scene):
         lowest, boundary = self.lubricant.cavitation_pressure, self.boundary
         theta = boundary.inlet.theta
         if theta is None:
-            inlet: float | None = (boundary.inlet.pressure or 0.0) - lowest
+            inlet: float | None = self.inlet_pressure - lowest
         else:
             inlet = self.lubricant.compressibility.pressure_at(theta) if theta > 1 else None
         sides = (boundary.sides.low - lowest, boundary.sides.high - lowest)

@@ -100,7 +100,7 @@ def solve(
     warnings = [
         *grid_warnings(solution),
         *pressure_warnings(solution),
-        *rupture_warnings(solution),
+        *rupture_warnings(solution.state.pressure),
         *scene_warnings(scene, solution),
         *window_warnings(found.scene, solution),
     ]

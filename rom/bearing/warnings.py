@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.rounding import share
 from roughfilm.rom.bearing.corners import jumps
 from roughfilm.rom.bearing.roughness import RoughSurface
@@ -27,9 +28,8 @@ def pressure_warnings(solution: Solution) -> list[str]:
     ]
 
 
-def rupture_warnings(solution: Solution) -> list[str]:
-    """A warning if a film without cavitation falls below the cavitation pressure."""
-    pressure = solution.state.pressure
+def rupture_warnings(pressure: Array) -> list[str]:
+    """A warning if a film without cavitation has a pressure above cavitation pressure, Pa, that is negative."""
     lowest, rounding = float(pressure.min()), ROUNDING * float(np.abs(pressure).max())
     if lowest >= -rounding:
         return []

@@ -14,8 +14,8 @@ from pydantic import (
 
 from roughfilm.contact.foundation.entries import Coordinate, Length, Part
 from roughfilm.rom.pocket import groove
-from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.profile import Points, checked
+from roughfilm.rom.thin_film.gap import Gap
 
 MAX_GROOVES = 100
 """Largest number of grooves in a period."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.pocket.gap import Gap
+from roughfilm.rom.thin_film.gap import Gap
 
 SAME_PLACE = 1e-9
 """Distance over the period below which two positions are equal."""

@@ -6,8 +6,8 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.pocket import closed_form as film_flow
-from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.piecewise import GaussRule, extrema, gauss_rule
+from roughfilm.rom.thin_film.gap import Gap
 
 NODES = 24
 """Number of Gauss points on each smooth piece of the gap, by default."""

@@ -9,10 +9,10 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.parts.fluid import Fluid
 from roughfilm.rom.parts.surroundings import GaugePressure, Surroundings
-from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.geometry import AnyGroove, PocketGeometry
 from roughfilm.rom.pocket.plan.geometry import PlanGeometry
 from roughfilm.rom.pocket.plan.plan import Plan
+from roughfilm.rom.thin_film.gap import Gap
 
 Viscosity = Annotated[float, InUnit("Pa*s")]
 Density = Annotated[float, InUnit("kg/m^3")]

@@ -125,7 +125,7 @@ def pocket_load(scene: Pocket, resolution: int) -> Measured:
         write_block(uniform(scene, resolution, card.layers), SIDES, directory)
         ended, iterations = run(directory)
         channel = read_channel(directory)
-        least, greatest = channel.pressure_range()
+        least, greatest = channel.pressure_range(0.0)
         quantities = pocket_quantities(
             scene,
             load=channel.mean(channel.wall_pressure),

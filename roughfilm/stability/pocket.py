@@ -16,8 +16,8 @@ from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.ladder.setting import Setting
+from roughfilm.rom.parts.laminar import TURBULENT
 from roughfilm.rom.pocket.scene import Pocket
-from roughfilm.rom.pocket.validity.warnings import TURBULENT
 from roughfilm.stability.form import SECOND_TRY, MapOutcome, Spot, Spots, StabilityMap, count, failed, in_groups
 
 RE, DEPTH = "Re", "d+"

@@ -5,10 +5,10 @@ from functools import lru_cache
 from itertools import pairwise
 from types import MappingProxyType
 
-from roughfilm.rom.pocket.gap import Gap
 from roughfilm.rom.pocket.groove import SAME_PLACE
 from roughfilm.rom.pocket.pressure import load_over_pressure
 from roughfilm.rom.pocket.scene import Pocket
+from roughfilm.rom.thin_film.gap import Gap
 
 SYMBOLS = {
     "reynolds_number": "Re",

@@ -1,14 +1,9 @@
 """Warnings where a pocket leaves the range of validity of a model."""
 
+from roughfilm.rom.parts.laminar import turbulence_warnings
 from roughfilm.rom.parts.surroundings import rupture_warnings
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, numbers
-
-TURBULENT = 1440.0
-"""Re of the film at which plane shear flow becomes turbulent: 360 in terms of half the speed and half the gap.
-
-Source: Tillmark and Alfredsson 1992, doi:10.1017/S0022112092001046.
-"""
 
 MAX_LOAD_RATIO = 1.3
 """Ratio of the load over the largest pressure to first order in Re to that of a result above which effects cancel.
@@ -19,13 +14,7 @@ Of 1200 random pockets 2 % exceed it without another warning; a third of these m
 
 def cautions(scene: Pocket) -> tuple[str, ...]:
     """The warnings for every model."""
-    warnings = []
-    if scene.reynolds_number > TURBULENT:
-        warnings.append(
-            f"Re = {scene.reynolds_number:.4g} is above {TURBULENT:.0f}, where shear flow becomes turbulent; "
-            "all models assume laminar, steady flow"
-        )
-    return tuple(warnings)
+    return turbulence_warnings(scene.reynolds_number)
 
 
 def ruptures(scene: Pocket, lowest: float) -> tuple[str, ...]:

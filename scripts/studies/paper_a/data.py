@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.foamcases.pocket.mesh.cells import centres
+from roughfilm.foamcases.conformal.cells import centres
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
 from roughfilm.rom.studies.sweep import Sweep

@@ -5,8 +5,8 @@ import pytest
 
 from roughfilm import foamcases, rom
 from roughfilm.figures.streamlines import stream_function
+from roughfilm.foamcases.conformal.cells import centres
 from roughfilm.foamcases.pocket import case
-from roughfilm.foamcases.pocket.mesh.cells import centres
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.model import ladder, of_kind
 from roughfilm.rom.ladder.request import Request

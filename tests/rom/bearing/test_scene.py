@@ -102,6 +102,9 @@ def test_pockets_lie_where_they_are_put():
             "boundary.inlet.pressure=-1 MPa",
             "scene.boundary.inlet.pressure: got -1000000.0 Pa; it must be at least",
         ),
+        ("boundary.inlet.ram_factor=1 bar", "scene.boundary.inlet.ram_factor: got '1 bar'; write a plain number"),
+        ("boundary.inlet.ram_factor=1", "scene.boundary.inlet.ram_factor: got 1 without lubricant.density, by which"),
+        ('boundary.inlet={"theta": 1, "ram_factor": 1}', "got theta, which determines the pressure, and ram_factor"),
         ("boundary.outlet.pressure=-1 MPa", "scene.boundary.outlet.pressure: got -1000000.0 Pa; it must be at least"),
         ("lubricant.cavitation_pressure=1 MPa", "it must be at least the cavitation pressure"),
         ("motion.speed=nan m/s", "write a number and a unit"),
@@ -141,6 +144,17 @@ def test_density_and_pressure_at_the_inlet_are_the_same_thing():
     assert scene.ends.inlet == pytest.approx(0.069e9 * np.log(1.001))
     starved = load_scene(SLIDER, ["boundary.inlet.theta=0.55"])
     assert (starved.ends.inlet, starved.ends.theta) == (None, 0.55)
+
+
+def test_the_ram_pressure_adds_to_the_pressure_at_the_inlet_and_grows_with_the_square_of_speed():
+    given = ["lubricant.density=900 kg/m^3", "boundary.inlet.ram_factor=0.5", "boundary.inlet.pressure=1 bar"]
+    scene = load_scene(SLIDER, [*given, "lubricant.cavitation_pressure=-0.5 bar", "motion.speed=10 m/s"])
+    assert scene.inlet_pressure == pytest.approx(1e5 + 0.5 * 900 * 10**2 / 2)
+    assert scene.ends.inlet == pytest.approx(scene.inlet_pressure + 0.5e5)
+    assert scene.at_speed(20.0).inlet_pressure == pytest.approx(1e5 + 0.5 * 900 * 20**2 / 2)
+    assert scene.at_speed(-10.0).inlet_pressure == scene.inlet_pressure
+    with pytest.raises(InputError, match=r"inlet\.pressure: got -45000\.0 Pa; it must be at least the cavitation"):
+        load_scene(SLIDER, [given[0], "boundary.inlet.ram_factor=-1", "motion.speed=10 m/s"])
 
 
 def test_pressures_count_from_ambient():

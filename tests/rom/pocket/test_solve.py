@@ -11,10 +11,9 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.model import ladder, of_kind
 from roughfilm.rom.ladder.request import Request
-from roughfilm.rom.pocket import periodic_solve as ring
-from roughfilm.rom.pocket import thin_film
-from roughfilm.rom.pocket.basis import STIFFNESS, gauss_basis
-from roughfilm.rom.pocket.solve import MODES
+from roughfilm.rom.thin_film import thin_film
+from roughfilm.rom.thin_film.basis import gauss_basis
+from roughfilm.rom.thin_film.newton import MODES
 
 MODELS = of_kind(ladder(rom), "pocket")
 FILM, FILM_SLOPE, REYNOLDS = (find("pocket", name) for name in ("film", "film_slope", "reynolds"))
@@ -34,27 +33,6 @@ def solved(scene, resolution, reynolds_number, modes=MODES):
         change, _ = thin_film.step(film, across, linear, linear.imbalance)
         state = thin_film.StripFlow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow)
     return film, across, state
-
-
-def test_polynomials_are_orthogonal_in_slope_and_carry_no_flow_but_the_first():
-    across = gauss_basis(7)
-    assert (across.slope * across.weights) @ across.slope.T == pytest.approx(STIFFNESS * np.eye(7), abs=1e-12)
-    assert across.shape @ across.weights == pytest.approx([across.flow, *np.zeros(6)], abs=1e-14)
-    assert across.nodes**3 @ across.above == pytest.approx((1 - across.nodes**4) / 4)
-
-
-@pytest.mark.parametrize("cells", [5, 6, 7, 8, 23, 24])
-def test_a_ring_of_blocks_is_solved_like_the_whole_matrix(cells):
-    random = np.random.default_rng(20050718)
-    blocks = random.normal(size=(cells, 5, 3, 3)) + 6 * np.eye(3) * (np.arange(5) == 2)[:, None, None]
-    right = random.normal(size=(cells, 3, 2))
-    whole = np.zeros((3 * cells, 3 * cells))
-    for i in range(cells):
-        for o in range(-2, 3):
-            j = (i + o) % cells
-            whole[3 * i : 3 * i + 3, 3 * j : 3 * j + 3] += blocks[i, o + 2]
-    expected = np.linalg.solve(whole, right.reshape(3 * cells, 2)).reshape(cells, 3, 2)
-    assert ring.solve(blocks, right) == pytest.approx(expected, rel=1e-9, abs=1e-12)
 
 
 def test_without_inertia_it_is_the_reynolds_equation(make_scene):

@@ -6,8 +6,8 @@ from functools import cached_property
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.pocket.columns import columns
-from roughfilm.rom.pocket.gap import Gap
+from roughfilm.rom.thin_film.columns import columns
+from roughfilm.rom.thin_film.gap import Gap
 
 POINTS = 4000
 """Number of points that are spread evenly over the arc length of the wall."""

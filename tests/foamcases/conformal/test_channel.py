@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from roughfilm.foamcases.pocket.fields import Channel
-from roughfilm.foamcases.pocket.mesh.cells import centres
+from roughfilm.foamcases.conformal.cells import centres
+from roughfilm.foamcases.conformal.channel import Channel
 
 
 @pytest.fixture

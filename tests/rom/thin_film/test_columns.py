@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from roughfilm.rom.pocket.columns import columns
 from roughfilm.rom.pocket.groove import channel, cylindrical, monotone, polygonal, splined
+from roughfilm.rom.thin_film.columns import columns
 
 FILM, LENGTH = 3e-5, 1e-3
 

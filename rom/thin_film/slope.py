@@ -11,15 +11,16 @@ slowest mode that vanishes on both walls. T is therefore smoothed over that leng
 
     T - (h/π)² ∂²T/∂x² = T of the thin film.
 
-Where the wall is smooth this has no effect of second order.
+Where the wall is smooth this has no effect of second order. At an end the pressure is uniform over the section and the
+velocity does not change along the film: there T = 0.
 """
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.pocket import periodic_solve as ring
-from roughfilm.rom.pocket.basis import Basis
-from roughfilm.rom.pocket.thin_film import Strip, StripFlow, all_amplitudes, stream_function, velocity
+from roughfilm.rom.thin_film import periodic_solve as ring
+from roughfilm.rom.thin_film.basis import Basis
+from roughfilm.rom.thin_film.thin_film import Strip, StripFlow, all_amplitudes, stream_function, velocity
 
 DECAY_LENGTH = 1 / np.pi
 """Decay length of a disturbance along the film, in film thicknesses: the slowest mode is sin(πY) exp(-πx/h)."""
@@ -29,43 +30,42 @@ def velocities(film: Strip, across: Basis, state: StripFlow) -> tuple[Array, Arr
     """The velocity u along and v = -∂ψ/∂x across the film in each cell, shape (cells, points)."""
     u = velocity(film, across, state)
     psi = stream_function(film, across, state)
-    rise = (np.roll(psi, -1, axis=0) - psi) / film.lengths[:, None]
+    rise = np.diff(psi, axis=0) / film.lengths[:, None]
     return u, np.asarray(-rise - u * (1 - across.nodes) * _wall_slope(film)[:, None])
 
 
 def imbalance(film: Strip, across: Basis, reynolds_number: float, state: StripFlow) -> Array:
-    """The imbalance -∫∫ φ_k ∂T/∂x dy dx of every cell, shape (cells, n), for :func:`rom.pocket.thin_film.step`."""
+    """The imbalance -∫∫ φ_k ∂T/∂x dy dx of every cell, shape (cells, n), for :func:`rom.thin_film.thin_film.step`."""
     u, v = velocities(film, across, state)
     below, slope = 1 - across.nodes, _wall_slope(film)[:, None]
-    h, between = film.thickness[:, None], (film.lengths + np.roll(film.lengths, 1))[:, None] / 2
+    h, (left, right) = film.thickness[:, None], film.around[:, 1:3].T
+    between = (film.lengths[left] + film.lengths[right])[:, None] / 2
     shear = 1 + all_amplitudes(film, across, state) @ across.slope
     moment = h * ((u * v) @ across.above)
 
     def along(values: Array, by_height: Array) -> Array:
         """The derivative ∂/∂x at constant y, at the faces, of values whose ∂/∂Y is ``by_height``."""
-        return np.asarray(
-            (values - np.roll(values, 1, axis=0)) / between + _at_faces(film, by_height * below * slope / h)
-        )
+        return np.asarray((values[right] - values[left]) / between + _at_faces(film, by_height * below * slope / h))
 
     stress = 2 * along(u, shear) + reynolds_number * (_at_faces(film, v**2) - along(moment, -h * u * v))
-    stress = _smoothed(film, stress)
+    stress = _smoothed(film, film.inside[:, None] * stress)
     through = film.face_thickness[:, None] * (stress @ (across.weights * across.shape).T)
-    inside = (stress + np.roll(stress, -1, axis=0)) / 2 * below * (film.lengths[:, None] * slope)
-    return np.asarray(through - np.roll(through, -1, axis=0) + inside @ (across.weights * across.slope).T)
+    within = (stress[1:] + stress[:-1]) / 2 * below * (film.lengths[:, None] * slope)
+    return np.asarray(-np.diff(through, axis=0) + within @ (across.weights * across.slope).T)
 
 
 def _wall_slope(film: Strip) -> Array:
-    return np.asarray((np.roll(film.face_thickness, -1) - film.face_thickness) / film.lengths)
+    return np.asarray(np.diff(film.face_thickness) / film.lengths)
 
 
 def _at_faces(film: Strip, values: Array) -> Array:
-    left, right = film.middle[:, 1, None], film.middle[:, 2, None]
-    return np.asarray(left * np.roll(values, 1, axis=0) + right * values)
+    return np.asarray(np.einsum("fo,fom->fm", film.middle, values[film.around]))
 
 
 def _smoothed(film: Strip, values: Array) -> Array:
-    """The solution f of f - (DECAY_LENGTH h)² f'' = values at the faces."""
-    right, left = film.lengths, np.roll(film.lengths, 1)
-    factor = 2 * (DECAY_LENGTH * film.face_thickness) ** 2 / (left + right)
+    """The solution f of f - (DECAY_LENGTH h)² f'' = values at the faces, and of f = values at ends."""
+    left, right = film.lengths[film.around[:-1, 1:3]].T
+    factor = 2 * (DECAY_LENGTH * film.inside * film.face_thickness)[:-1] ** 2 / (left + right)
     row = np.stack([-factor / left, 1 + factor / left + factor / right, -factor / right], axis=1)
-    return ring.solve(row[:, :, None, None], values[:, None, :])[:, 0]
+    smooth = ring.solve(row[:, :, None, None], values[:-1, None, :])[:, 0]
+    return np.concatenate([smooth, smooth[:1]])

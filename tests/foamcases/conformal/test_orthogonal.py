@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.foamcases.pocket.mesh import harmonic, laplace
-from roughfilm.foamcases.pocket.mesh.cells import centres, convex
-from roughfilm.foamcases.pocket.mesh.orthogonal import orthogonal
-from roughfilm.foamcases.pocket.mesh.wall import wall_of
-from roughfilm.rom.pocket.gap import Gap
+from roughfilm.foamcases.conformal import harmonic, laplace
+from roughfilm.foamcases.conformal.cells import centres, convex
+from roughfilm.foamcases.conformal.orthogonal import orthogonal
+from roughfilm.foamcases.conformal.wall import wall_of
 from roughfilm.rom.pocket.groove import channel, cylindrical, splined
+from roughfilm.rom.thin_film.gap import Gap
 
 FILM, LENGTH = 3e-5, 1e-3
 

@@ -17,12 +17,12 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.foamcases.pocket.mesh import harmonic, laplace
-from roughfilm.foamcases.pocket.mesh.cells import convex
-from roughfilm.foamcases.pocket.mesh.laplace import OnWalls, over_periods
-from roughfilm.foamcases.pocket.mesh.wall import CROWDED_POINTS, Wall, wall_of
-from roughfilm.rom.pocket.columns import MIN_CORNER_DISTANCE, columns
-from roughfilm.rom.pocket.gap import Gap
+from roughfilm.foamcases.conformal import harmonic, laplace
+from roughfilm.foamcases.conformal.cells import convex
+from roughfilm.foamcases.conformal.laplace import OnWalls, over_periods
+from roughfilm.foamcases.conformal.wall import CROWDED_POINTS, Wall, wall_of
+from roughfilm.rom.thin_film.columns import MIN_CORNER_DISTANCE, columns
+from roughfilm.rom.thin_film.gap import Gap
 
 COARSE = ((240, 20), (480, 20), (960, 20))
 """Columns and layers of the grids on which ξ is solved; a finer one is taken if cells of the mesh fold."""
@@ -74,7 +74,7 @@ class Columns:
 def orthogonal(gap: Gap, resolution: int, layers: int) -> Array:
     """The vertices of the near-orthogonal mesh of a gap, shape (columns + 1, layers + 1, 2), in film thicknesses.
 
-    Layers count from the lower wall. Columns are as dense as :func:`roughfilm.rom.pocket.columns.columns` makes them
+    Layers count from the lower wall. Columns are as dense as :func:`roughfilm.rom.thin_film.columns.columns` makes them
     along the mean of both walls, and every corner of the gap is a vertex. The first column begins at the start of the
     period on the upper wall, and the last one is its copy one period later.
 
@@ -89,10 +89,58 @@ def orthogonal(gap: Gap, resolution: int, layers: int) -> Array:
     InputError
         If cells fold or are not convex, as they do at a sharp ridge between two grooves.
     """
+    return _unfolded(
+        gap, resolution, lambda wall, places: _period(wall, places, _columns(wall, places, resolution), layers)
+    )
+
+
+def between_ends(gap: Gap, resolution: int, layers: int) -> Array:
+    """The vertices of the near-orthogonal mesh of a gap that is open at both ends, which are vertical.
+
+    Shape and unit are those of :func:`orthogonal`. The mesh is half of that of the gap that is continued by its mirror
+    image beyond its end: both mirror planes are lines ξ = constant of the conformal map.
+
+    Parameters
+    ----------
+    gap : the gap from one end to the other; its thickness is needed between them only.
+    resolution : number of columns, about.
+    layers : number of layers.
+
+    Raises
+    ------
+    InputError
+        If cells fold or are not convex.
+    """
+    start, end = gap.breaks[0] / gap.film, gap.breaks[-1] / gap.film
+
+    def mesh(wall: Wall, places: Places) -> Array:
+        vertices = _mesh(wall, places, _columns(wall, places, resolution, until=0.5), layers)
+        vertices[0, :, 0], vertices[-1, :, 0] = start, end
+        return vertices
+
+    return _unfolded(_mirrored(gap), resolution, mesh)
+
+
+def _mirrored(gap: Gap) -> Gap:
+    """The gap continued by its mirror image beyond its end, periodic over twice its length."""
+    start, end = gap.breaks[0], gap.breaks[-1]
+
+    def both(places: tuple[float, ...]) -> tuple[float, ...]:
+        return tuple(sorted({*places, *(2 * end - place for place in places if place > start)}))
+
+    def thickness(x: Array) -> Array:
+        along = np.mod(x - start, 2 * (end - start))
+        return gap.thickness(start + np.minimum(along, 2 * (end - start) - along))
+
+    breaks = (*both(gap.breaks), 2 * end - start)
+    return replace(gap, breaks=breaks, corners=both(gap.corners), thickness=thickness)
+
+
+def _unfolded(gap: Gap, resolution: int, mesh: Callable[[Wall, Places], Array]) -> Array:
+    """The mesh of a gap from the coarsest of the grids ``COARSE`` with which its cells are convex."""
     wall = wall_of(gap)
     for coarse in COARSE:
-        places = _settled(wall, *coarse)
-        vertices = _mesh(wall, places, _columns(wall, places, resolution), layers)
+        vertices = mesh(wall, _settled(wall, *coarse))
         folded = ~convex(vertices).all(axis=1)
         if not folded.any():
             return vertices
@@ -117,7 +165,7 @@ def _settled(wall: Wall, resolution: int, layers: int) -> Places:
             break
         energy = found.energy
         spread = _columns(wall, places, resolution)
-        vertices, lower = _mesh(wall, places, spread, layers), spread.lower
+        vertices, lower = _period(wall, places, spread, layers), spread.lower
     return places
 
 
@@ -146,16 +194,17 @@ def _places(wall: Wall, found: OnWalls, lower: Array, upper: Array) -> Places:
     )
 
 
-def _columns(wall: Wall, places: Places, resolution: int) -> Columns:
-    """The columns of a mesh, spread over the mean of the positions on both walls, with one at every corner.
+def _columns(wall: Wall, places: Places, resolution: int, *, until: float = 1.0) -> Columns:
+    """The columns of a mesh up to ξ = ``until``, spread over the mean of the positions on both walls.
 
-    At the bottom of a groove deeper than wide ξ hardly rises, and layers are thick. The lower wall counts there by ξ.
+    There is one at every corner. At the bottom of a groove deeper than wide ξ hardly rises, and layers are thick. The
+    lower wall counts there by ξ.
     """
     gap, film, table = wall.gap, wall.gap.film, places.xi
     lower = places.lower(table)
     moved = np.minimum(np.diff(lower), MAX_GROWTH * wall.period * np.diff(table))
     middle = (np.append(0.0, np.cumsum(moved)) + places.upper(table)) / 2
-    start, end = np.interp([0.0, 1.0], table, middle).tolist()
+    start, end = np.interp([0.0, until], table, middle).tolist()
     if not end - start > SAME_PLACE:
         raise _folding(gap.breaks[0], resolution)
 
@@ -165,21 +214,28 @@ def _columns(wall: Wall, places: Places, resolution: int) -> Columns:
     def counted(breaks: tuple[float, ...]) -> Array:
         """The means of the positions on both walls at breaks of the gap, in the period of the columns."""
         inside = np.interp(np.interp(on_wall(breaks), lower, table) % 1, table, middle)
-        at_ends = (inside - start < SAME_PLACE) | (end - inside < SAME_PLACE)
+        at_ends = (inside - start < SAME_PLACE) | (np.abs(end - inside) < SAME_PLACE)
         return np.where(at_ends, start, inside)
 
-    corners = counted(gap.corners)
-    breaks = {*(counted(gap.breaks[:-1]) * film).tolist(), start * film}
-    mean_gap = replace(gap, breaks=(*sorted(breaks), end * film), corners=tuple(sorted({*(corners * film).tolist()})))
+    corners, breaks = counted(gap.corners), counted(gap.breaks[:-1])
+    within = [np.unique(places[places < end] * film).tolist() for places in (np.append(breaks, start), corners)]
+    mean_gap = replace(gap, breaks=(*within[0], end * film), corners=tuple(within[1]))
     spread = columns(mean_gap, resolution)
     xi = np.interp(spread, middle, table)
-    xi[[0, -1]] = 0, 1
+    xi[[0, -1]] = 0, until
     arc = places.lower(xi)
     for corner, place in zip(corners, on_wall(gap.corners), strict=True):
         nearest = np.abs(spread - corner) < MIN_CORNER_DISTANCE
         arc[nearest] = place + wall.length * np.round((arc[nearest] - place) / wall.length)
-    arc[-1] = arc[0] + wall.length
+    arc[-1] = arc[0] + until * wall.length
     return Columns(xi=xi, lower=arc)
+
+
+def _period(wall: Wall, places: Places, spread: Columns, layers: int) -> Array:
+    """The vertices of the mesh of a period, whose last column is the first one shifted."""
+    vertices = _mesh(wall, places, spread, layers)
+    vertices[-1] = vertices[0] + [wall.period, 0]
+    return vertices
 
 
 def _mesh(wall: Wall, places: Places, spread: Columns, layers: int) -> Array:
@@ -193,5 +249,4 @@ def _mesh(wall: Wall, places: Places, spread: Columns, layers: int) -> Array:
     vertices[..., 0] += wall.period * spread.xi[:, None]
     vertices[:, 0] = wall.points(spread.lower)
     vertices[:, -1, 0], vertices[:, -1, 1] = places.upper(spread.xi), 1
-    vertices[-1] = vertices[0] + [wall.period, 0]
     return vertices

@@ -3,7 +3,7 @@
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.pocket.gap import Gap
+from roughfilm.rom.thin_film.gap import Gap
 
 CORNER_DENSITY = 10.0
 """Density of columns at a corner of the gap over that far from one."""

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.foamcases.pocket.mesh import cells
+from roughfilm.foamcases.conformal import cells
 
 CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 """Corners of the unit cell, in the order of a cell's nodes."""

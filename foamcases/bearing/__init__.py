@@ -1,0 +1,1 @@
+"""OpenFOAM cases of infinitely wide pads between two end sections."""

@@ -1,0 +1,148 @@
+"""Write the case directory of an infinitely wide pad, with a README and a script to run it by hand."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from roughfilm.foamcases.bearing.dictionaries import SIDES, STEPS, pad_dictionaries
+from roughfilm.foamcases.bearing.mesh import Plane, plane_of
+from roughfilm.foamcases.bearing.units import pressure_difference, velocity_unit
+from roughfilm.foamcases.openfoam.allrun import allrun
+from roughfilm.foamcases.openfoam.block_mesh import in_space, write_block
+from roughfilm.foamcases.openfoam.case_directory import write_papers, write_whole, written_for
+from roughfilm.foamcases.openfoam.dialect import Dialect
+from roughfilm.foamcases.openfoam.dictionaries import write_files, write_second_try
+from roughfilm.foamcases.openfoam.relaxation import velocity_relaxation
+from roughfilm.foamcases.openfoam.residuals import Judged
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.ladder.request import CheckedRequest
+
+MIN_SLOPE = 1e-4
+"""Largest slope of the still wall up to which the velocity across the film is round-off."""
+
+README = """\
+The film of an infinitely wide pad between two end sections, for OpenFOAM's simpleFoam. Run it with ./Allrun
+
+Lengths are in minimum film thicknesses, velocities in V = {speed:.12g} m/s, so nu = 1 / Re with V and this film, and
+  p [Pa]    = p * {pressure:.12g} + {outlet:.12g}   above ambient pressure
+  U [m/s]   = U * {speed:.12g}
+  x, y [m]  = x, y * {film:.12g}
+The upper wall (patch "upper", y = 1) slides along x. The pressure is uniform over "inlet", where the sliding wall
+enters, and over "outlet", where it leaves.
+"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PadCard:
+    """The options with which a case was written, which are needed to run it and read it back.
+
+    Attributes
+    ----------
+    lowest : the lowest layer of each column that is in the liquid; empty where all layers are.
+    judged : the fields whose residuals are judged, the main velocity first.
+    """
+
+    columns: int
+    layers: int
+    reynolds_number: float
+    resolution: int
+    tolerance: float
+    scheme: str
+    processes: int
+    dialect: str
+    lowest: list[int]
+    judged: list[str]
+
+    @property
+    def relaxation(self) -> float:
+        """The relaxation of velocity in SIMPLEC."""
+        return velocity_relaxation(self.columns)
+
+    @property
+    def criteria(self) -> Judged:
+        """The criteria of a converged flow."""
+        return Judged(fields=tuple(self.judged))
+
+
+def write_pad_case(
+    scene: Bearing,
+    directory: Path,
+    request: CheckedRequest,
+    reynolds_number: float,
+    dialect: Dialect,
+    *,
+    run: bool = False,
+) -> None:
+    """Write the case of a scene completely or not at all.
+
+    Parameters
+    ----------
+    scene : an infinitely wide pad.
+    directory : the directory of the case, which is made; it may exist if it is empty.
+    request : numerical options. The resolution is the number of mesh columns along the film, about, as columns begin
+        and end at every corner of the wall; there are a fifth as many layers in the minimum film thickness.
+    reynolds_number : the Reynolds number of film and velocity unit at which the case is run; the model chooses it.
+    dialect : the dialect of OpenFOAM in which the case is written.
+    run : whether the case is to be run by this library at once, which needs no dictionaries of a second try.
+
+    Raises
+    ------
+    InputError
+        If the directory is not empty or cannot be written, or the wall has no mesh of this resolution.
+    """
+    mesh, film, speed = plane_of(scene, request.resolution), scene.geometry.thinnest, velocity_unit(scene)
+    stepped, inclined = bool(mesh.lowest.any()), _steepest(mesh) > MIN_SLOPE
+    card = PadCard(
+        columns=mesh.kept.shape[0],
+        layers=mesh.kept.shape[1],
+        reynolds_number=reynolds_number,
+        resolution=request.resolution,
+        tolerance=request.tolerance,
+        scheme=request.scheme,
+        processes=request.processes,
+        dialect=dialect.name,
+        lowest=mesh.lowest.tolist() if stepped else [],
+        judged=["Ux", "Uy", "p"] if inclined else ["Ux", "p"],
+    )
+    pascal = scene.lubricant.viscosity * speed / film
+    readme = README.format(
+        pressure=pascal * reynolds_number, outlet=scene.boundary.outlet.pressure, speed=speed, film=film
+    )
+    readme += written_for(dialect)
+
+    def fill(place: Path) -> None:
+        write_block(in_space(mesh.vertices), SIDES, place, kept=mesh.kept[..., None], cut=STEPS)
+        files = pad_dictionaries(
+            dialect=dialect,
+            viscosity=1 / reynolds_number,
+            speed=abs(scene.motion.speed) / speed,
+            pressure=pressure_difference(scene) / (pascal * reynolds_number),
+            stepped=stepped,
+            inclined=inclined,
+            tolerance=request.tolerance,
+            scheme=request.scheme,
+            processes=request.processes,
+            relaxation=card.relaxation,
+        )
+        write_files(place, files)
+        if not run:
+            write_second_try(place, scheme=request.scheme, tolerance=request.tolerance)
+        script = allrun(
+            {".": card.criteria},
+            tolerance=request.tolerance,
+            processes=request.processes,
+            dialect=dialect,
+            settles=False,
+        )
+        write_papers(place, readme=readme, allrun=script, card=card)
+
+    write_whole(directory, fill)
+
+
+def _steepest(mesh: Plane) -> float:
+    """The largest slope of the still wall; infinite where it has steps."""
+    if mesh.lowest.any():
+        return np.inf
+    run, climb = np.abs(np.diff(mesh.vertices[:, 0], axis=0)).T
+    return float((climb / np.maximum(run, np.finfo(float).tiny)).max())

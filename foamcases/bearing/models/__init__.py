@@ -1,0 +1,1 @@
+"""The models of a bearing that run OpenFOAM, one in each file."""

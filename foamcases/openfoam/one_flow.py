@@ -1,0 +1,113 @@
+"""Run a case of one flow: check its mesh, iterate its flow, and verify its fields."""
+
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from roughfilm.foamcases.openfoam.iterate import Asked, Try
+from roughfilm.foamcases.openfoam.kept import release_of, wall_time
+from roughfilm.foamcases.openfoam.program import Ended
+from roughfilm.foamcases.openfoam.residuals import Judged
+from roughfilm.foamcases.openfoam.run import (
+    CaseRun,
+    Checked,
+    check_mesh,
+    converge,
+    kept_flow,
+    kept_mesh,
+    ready,
+    remarks,
+)
+from roughfilm.rom.ladder.model import Progress
+from roughfilm.rom.ladder.result import Numerics, SolverRun
+
+
+class Written(Asked, Protocol):
+    """The options with which a case was written."""
+
+    @property
+    def dialect(self) -> str: ...  # noqa: D102
+    @property
+    def resolution(self) -> int: ...  # noqa: D102
+    @property
+    def reynolds_number(self) -> float: ...  # noqa: D102
+    @property
+    def relaxation(self) -> float: ...  # noqa: D102
+
+
+@dataclass(frozen=True, kw_only=True)
+class Run(CaseRun):
+    """A successful run of one flow.
+
+    Attributes
+    ----------
+    residual : largest initial residual of velocity and pressure that a new process computes from the fields on disk.
+    tries : the one or two tries of the run, of which the last converged.
+    """
+
+    residual: float
+    tries: tuple[Try, ...]
+
+
+def run_flow(directory: Path, card: Written, judged: Judged, progress: Progress) -> Run:
+    """Check the mesh, run :func:`roughfilm.foamcases.openfoam.iterate.iterate`, and verify the fields on disk.
+
+    Raises
+    ------
+    InputError
+        If the case is written for another dialect of OpenFOAM.
+    UnavailableError
+        If OpenFOAM is not on this machine, or mpirun is not and the case needs several processes.
+    ConvergenceError
+        If the mesh check fails, simpleFoam stops in error or without convergence, or the fields on disk do not
+        satisfy the equations; with the outcome of the run and the last lines of its log.
+    """
+    version = ready(directory, card.dialect, card.processes)
+    wall = time.perf_counter()
+    mesh = check_mesh(directory)
+    checked = converge(directory, card, judged, progress)
+    return _run(mesh, checked, time.perf_counter() - wall, version)
+
+
+def kept_flow_run(directory: Path, card: Written, judged: Judged) -> Run:
+    """Read the run of a case that its script ``Allrun`` ran; errors as those of :func:`run_flow`, save OpenFOAM's."""
+    version = release_of(directory, card.dialect)
+    mesh = kept_mesh(directory)
+    checked = kept_flow(directory, card, judged)
+    return _run(mesh, checked, wall_time(directory), version)
+
+
+def _run(mesh: Ended, checked: Checked, wall_s: float, version: str) -> Run:
+    return Run(
+        residual=checked.residual,
+        cpu_s=mesh.cpu_s + checked.cpu_s,
+        wall_s=wall_s,
+        version=version,
+        tries=checked.tries,
+        warnings=remarks(mesh),
+    )
+
+
+def numerics_of(card: Written, run: Run, *, unknowns: int, details: dict[str, float]) -> Numerics:
+    """The numerics of the result of a run.
+
+    Parameters
+    ----------
+    card : the options with which the case was written.
+    unknowns : number of unknowns.
+    details : further numbers; the relaxation of velocity and the Reynolds number of the case are added.
+    """
+    return Numerics(
+        residual=run.residual,
+        iterations=run.tries[-1].iterations,
+        cpu_s=run.cpu_s,
+        wall_s=run.wall_s,
+        degrees_of_freedom=unknowns,
+        resolution=card.resolution,
+        tolerance=card.tolerance,
+        scheme=card.scheme,
+        processes=card.processes,
+        runs=tuple(SolverRun(outcome=str(t.outcome), iterations=t.iterations, recipe=t.recipe) for t in run.tries),
+        details={"velocity_relaxation": card.relaxation, "reynolds_number": card.reynolds_number, **details},
+    )
