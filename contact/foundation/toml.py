@@ -121,19 +121,31 @@ def set_entry(
     if not equals or not all([*path, last]):
         raise InputError(f"set {override}: got no key=value; write for example {example}")
     table: Any = entries
-    for part in path:
+    for depth, part in enumerate(path):
         if isinstance(table, list):
-            table = {str(number): one for number, one in enumerate(table)}.get(part)
+            table = _chosen(
+                table, part, f"set {override}: got {part!r} as a number in the list {'.'.join(path[:depth])!r}"
+            )
         else:
             table = table.setdefault(part, {})
         if not isinstance(table, dict | list):
             break
+    if isinstance(table, list) and not last.isdigit():
+        _chosen(table, last, f"set {override}: got {last!r} as a number in the list {'.'.join(path)!r}")
     if not isinstance(table, dict):
         raise InputError(f"set {override}: {path[-1]!r} is not a table; write for example {example}")
     for other in (replaces or {}).get(key, ()):
         table.pop(other, None)
     value = _value(text.strip())
     table[last] = in_si(value) if in_si_units else value
+
+
+def _chosen(entries: Sequence[object], number: str, message: str) -> object:
+    """The entry of a list with a number, as text; InputError with a message, and the numbers that there are."""
+    if number in map(str, range(len(entries))):
+        return entries[int(number)]
+    allowed = {0: "none, as the list is empty", 1: "0"}.get(len(entries), f"0 to {len(entries) - 1}")
+    raise InputError(f"{message}; it must be {allowed}")
 
 
 def _value(text: str) -> object:

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.bearing.dictionaries import SIDES, STEPS, pad_dictionaries
-from roughfilm.foamcases.bearing.mesh import Plane, plane_of
+from roughfilm.foamcases.bearing.mesh import Plane, layers_of, plane_of, step_obstacle
 from roughfilm.foamcases.bearing.units import pressure_difference, velocity_unit
 from roughfilm.foamcases.openfoam.allrun import allrun
 from roughfilm.foamcases.openfoam.block_mesh import in_space, write_block
@@ -16,7 +17,11 @@ from roughfilm.foamcases.openfoam.dictionaries import write_files, write_second_
 from roughfilm.foamcases.openfoam.relaxation import velocity_relaxation
 from roughfilm.foamcases.openfoam.residuals import Judged
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.wide_pad.gap import film_obstacle
 from roughfilm.rom.ladder.request import CheckedRequest
+
+COLUMNS_PER_LAYER = 5
+"""Number of columns for each layer in the rule for the relaxation of velocity; only the layers matter in a long pad."""
 
 MIN_SLOPE = 1e-4
 """Largest slope of the still wall up to which the velocity across the film is round-off."""
@@ -39,12 +44,14 @@ class PadCard:
 
     Attributes
     ----------
+    film_layers : number of layers in the minimum film thickness; a wall with steps has more below it.
     lowest : the lowest layer of each column that is in the liquid; empty where all layers are.
     judged : the fields whose residuals are judged, the main velocity first.
     """
 
     columns: int
     layers: int
+    film_layers: int
     reynolds_number: float
     resolution: int
     tolerance: float
@@ -57,7 +64,7 @@ class PadCard:
     @property
     def relaxation(self) -> float:
         """The relaxation of velocity in SIMPLEC."""
-        return velocity_relaxation(self.columns)
+        return velocity_relaxation(COLUMNS_PER_LAYER * self.film_layers)
 
     @property
     def criteria(self) -> Judged:
@@ -81,7 +88,7 @@ def write_pad_case(
     scene : an infinitely wide pad.
     directory : the directory of the case, which is made; it may exist if it is empty.
     request : numerical options. The resolution is the number of mesh columns along the film, about, as columns begin
-        and end at every corner of the wall; there are a fifth as many layers in the minimum film thickness.
+        and end at every corner of the wall; the layers are in proportion.
     reynolds_number : the Reynolds number of film and velocity unit at which the case is run; the model chooses it.
     dialect : the dialect of OpenFOAM in which the case is written.
     run : whether the case is to be run by this library at once, which needs no dictionaries of a second try.
@@ -89,13 +96,17 @@ def write_pad_case(
     Raises
     ------
     InputError
-        If the directory is not empty or cannot be written, or the wall has no mesh of this resolution.
+        If the film is not resolved by OpenFOAM, the wall has no mesh of this resolution, or the directory is not empty
+        or cannot be written.
     """
+    if obstacle := film_obstacle(scene) or step_obstacle(scene):
+        raise InputError(f"scene: has no OpenFOAM case, as {obstacle}")
     mesh, film, speed = plane_of(scene, request.resolution), scene.geometry.thinnest, velocity_unit(scene)
     stepped, inclined = bool(mesh.lowest.any()), _steepest(mesh) > MIN_SLOPE
     card = PadCard(
         columns=mesh.kept.shape[0],
         layers=mesh.kept.shape[1],
+        film_layers=layers_of(scene, request.resolution),
         reynolds_number=reynolds_number,
         resolution=request.resolution,
         tolerance=request.tolerance,

@@ -22,6 +22,12 @@ SIDES = (
 )
 """The patches of a pad at x-, x+, y-, y+, z-, z+; the sliding wall enters at "inlet" and leaves at "outlet"."""
 
+PRESSURE_ALONE = 0.01
+"""Residual of pressure over the tolerance at which a run ends where the residual of velocity across is round-off.
+
+That of the velocity along the film then meets the tolerance too.
+"""
+
 STEPS = Patch(name="steps", entries={"type": "wall"})
 """The patch of the faces towards cells that a wall with steps leaves out."""
 
@@ -51,7 +57,7 @@ def pad_dictionaries(
     speed : speed of the sliding wall, in that unit.
     pressure : pressure at the inlet above that at the outlet, over density times the square of that unit.
     stepped : whether the mesh has the patch ``STEPS``.
-    inclined : whether the velocity across the film is above round-off, so that its residual ends the iteration.
+    inclined : whether the velocity across the film is above round-off; if not, the pressure alone ends the iteration.
     tolerance : the initial residual at which the iteration stops.
     scheme : a key of ``ADVECTION``.
     processes : the number of parts along the film into which a parallel run divides the mesh.
@@ -79,7 +85,7 @@ def pad_dictionaries(
             relaxation=relaxation,
             coarsest=20,
             velocity_gain=0.01,
-            controlled=("p", "U") if inclined else ("p",),
+            controlled={"p": tolerance, "U": tolerance} if inclined else {"p": PRESSURE_ALONE * tolerance},
         ),
         "system/decomposeParDict": (
             "dictionary",

@@ -18,10 +18,13 @@ from roughfilm.rom.bearing.wide_pad.gap import pad_gap, steps
 from roughfilm.rom.thin_film.columns import columns
 from roughfilm.rom.thin_film.gap import Gap
 
-LAYERS_PER_COLUMN = 1 / 5
-"""Number of cells across the minimum film thickness over the number along it."""
+DEFAULT_COLUMNS, MOST_COLUMNS = 240, 4000
 
-MIN_LAYERS = 4
+COLUMNS_OF_FEATURE = 24
+"""Number of columns over the shortest feature of the wall at the default resolution."""
+
+DEFAULT_LAYERS, MIN_LAYERS = 48, 4
+"""Number of cells across the minimum film thickness at the default resolution, and the smallest one."""
 
 MIN_STEP_LAYERS = 2
 """Smallest number of cells over the height of a step."""
@@ -60,21 +63,31 @@ class Plane:
         return np.asarray(np.arange(self.vertices.shape[1] - 1) >= self.lowest[:, None])
 
 
+def default_columns(scene: Bearing) -> int:
+    """The default number of columns: at least ``COLUMNS_OF_FEATURE`` for the shortest feature of the wall."""
+    features = scene.geometry.length / scene.geometry.film_shape().finest[0]
+    return min(max(DEFAULT_COLUMNS, 8 * round(COLUMNS_OF_FEATURE * features / 8)), MOST_COLUMNS)
+
+
+def layers_of(scene: Bearing, resolution: int) -> int:
+    """The number of layers in the minimum film thickness, in proportion to the number of columns."""
+    return max(MIN_LAYERS, round(DEFAULT_LAYERS * resolution / default_columns(scene)))
+
+
 def plane_of(scene: Bearing, resolution: int) -> Plane:
     """The mesh of a scene.
 
     Parameters
     ----------
     scene : an infinitely wide pad.
-    resolution : number of columns along the film, about; there are a fifth as many layers in the minimum film
-        thickness, and at least 4.
+    resolution : number of columns along the film, about.
 
     Raises
     ------
     InputError
         If cells of the mesh fold, or a cell lies over several steps.
     """
-    gap, layers = pad_gap(scene), max(MIN_LAYERS, round(resolution * LAYERS_PER_COLUMN))
+    gap, layers = pad_gap(scene), layers_of(scene, resolution)
     if steps(gap):
         return _stepped(gap, resolution, layers)
     vertices = between_ends(gap, resolution, layers)

@@ -3,7 +3,14 @@
 from functools import partial
 
 from roughfilm.contact.foundation.deferred import deferred
-from roughfilm.foamcases.bearing.mesh import step_obstacle
+from roughfilm.foamcases.bearing.mesh import (
+    DEFAULT_COLUMNS,
+    DEFAULT_LAYERS,
+    MOST_COLUMNS,
+    default_columns,
+    layers_of,
+    step_obstacle,
+)
 from roughfilm.foamcases.openfoam.model import Cases
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.wide_pad.gap import film_obstacle
@@ -11,24 +18,19 @@ from roughfilm.rom.ladder.model import Applicability, Resolutions
 
 SOURCES = ("10.1063/1.168744", "10.1080/01495728408961817", "10.1243/13506501JET452")
 
-CELLS_OF_FEATURE = 24
-"""Number of columns over the shortest feature of the wall at the default resolution."""
-
-DEFAULT_COLUMNS, MOST_COLUMNS = 240, 4000
-
 
 def resolutions(scene: Bearing) -> Resolutions:
-    """The allowed and default numbers of columns: at least ``CELLS_OF_FEATURE`` for the shortest feature of a wall."""
-    features = scene.geometry.length / scene.geometry.film_shape().finest[0]
-    default = min(max(DEFAULT_COLUMNS, 8 * round(CELLS_OF_FEATURE * features / 8)), MOST_COLUMNS)
+    """The allowed and default numbers of columns."""
+    default = default_columns(scene)
     return Resolutions(
         least=12, most=MOST_COLUMNS, default=default, series=tuple(default // part for part in (8, 4, 2, 1))
     )
 
 
-def cost(_scene: Bearing, resolution: int) -> float:
-    """Expected CPU seconds of one run, 0.8 + 2.4 (resolution / 240)^2.4."""
-    return float(0.8 + 2.4 * (resolution / 240) ** 2.4)
+def cost(scene: Bearing, resolution: int) -> float:
+    """Expected CPU seconds of one run."""
+    columns, layers = resolution / DEFAULT_COLUMNS, layers_of(scene, resolution) / DEFAULT_LAYERS
+    return float(0.8 + 2.4 * columns * layers**1.4)
 
 
 def pad_applies(scene: Bearing, *, left_out: str) -> Applicability:
@@ -40,7 +42,7 @@ def pad_applies(scene: Bearing, *, left_out: str) -> Applicability:
 CASES = Cases(
     kind="bearing",
     resolutions=resolutions,
-    resolution_meaning="mesh columns along the film, with a fifth as many layers across its minimum thickness",
+    resolution_meaning="mesh columns along the film, with layers in proportion, 48 at the default",
     residual_meaning="largest initial residual of velocity and pressure that a new process finds in the fields on disk",
     tolerance=1e-7,
     most_processes=lambda _scene, resolution: resolution // 2,

@@ -3,6 +3,7 @@
 OpenFOAM runs code in a dictionary (``#calc``, ``#codeStream``), so no text of a user is written into one.
 """
 
+import math
 import shutil
 from collections.abc import Mapping
 from pathlib import Path
@@ -60,8 +61,10 @@ def write_dictionaries(
     viscosity: float,
     tolerance: float,
     scheme: str,
-    processes: int,
+    parts: tuple[int, int],
     relaxation: float,
+    sides: tuple[Patch, ...] = SIDES,
+    functions: Mapping[str, Any] | None = None,
 ) -> None:
     """Write the files in ``system``, ``constant`` and ``0`` of a channel whose upper wall slides at speed 1.
 
@@ -75,12 +78,75 @@ def write_dictionaries(
         The initial residual of velocity and pressure at which the iteration stops.
     scheme
         A key of ``ADVECTION``.
-    processes
-        The number of parts along the film into which a parallel run divides the mesh.
+    parts
+        The numbers of parts along x and y into which a parallel run divides the mesh.
     relaxation
         The relaxation of velocity in SIMPLEC.
+    sides
+        The patches of the mesh; "lower" is the wall at rest and "upper" the one that slides.
+    functions
+        The functions of ``system/controlDict`` that end the run, by their names; None if residuals end it.
     """
-    write_files(directory, _dictionaries(dialect, viscosity, tolerance, scheme, processes, relaxation))
+    from foamlib import DimensionSet  # slow to import
+
+    kind, entries = control(ITERATIONS)
+    walls: dict[str, Any] = {
+        "lower": {"type": "noSlip"},
+        "upper": {"type": "fixedValue", "value": [1.0, 0.0, 0.0]},
+    }
+    files: dict[str, Dictionary] = {
+        "system/controlDict": (kind, entries if functions is None else {**entries, "functions": functions}),
+        "system/fvSchemes": schemes(scheme),
+        "system/fvSolution": solution(
+            dialect=dialect,
+            tolerance=tolerance,
+            linear=LINEAR_TOLERANCE,
+            relaxation=relaxation,
+            coarsest=20,
+            velocity_gain=0.01,
+            controlled=None if functions is None else {},
+        ),
+        "system/decomposeParDict": (
+            "dictionary",
+            {
+                "numberOfSubdomains": parts[0] * parts[1],
+                "method": "simple",
+                "simpleCoeffs": {"n": [*parts, 1], "delta": 0.001},
+            },
+        ),
+        **liquid(viscosity),
+        "0/U": (
+            "volVectorField",
+            {
+                "dimensions": DimensionSet(length=1, time=-1),
+                "internalField": [0.5, 0.0, 0.0],
+                "boundaryField": {p.name: walls.get(p.name, {"type": p.entries["type"]}) for p in sides},
+            },
+        ),
+        "0/p": (
+            "volScalarField",
+            {
+                "dimensions": DimensionSet(length=2, time=-2),
+                "internalField": 0.0,
+                "boundaryField": {
+                    p.name: {"type": "zeroGradient" if p.name in walls else p.entries["type"]} for p in sides
+                },
+            },
+        ),
+    }
+    write_files(directory, files)
+
+
+def parts_of(processes: int, size: tuple[float, float]) -> tuple[int, int]:
+    """The numbers of parts along x and y into which a period is divided, so that the parts are as square as possible.
+
+    Parameters
+    ----------
+    processes : number of parts.
+    size : length and width of the period, in any one unit.
+    """
+    pairs = [(n, processes // n) for n in range(1, processes + 1) if processes % n == 0]
+    return min(pairs, key=lambda pair: abs(math.log(size[0] / pair[0] * pair[1] / size[1])))
 
 
 def write_files(directory: Path, files: Mapping[str, Dictionary]) -> None:
@@ -196,7 +262,7 @@ def solution(
     relaxation: float,
     coarsest: int,
     velocity_gain: float,
-    controlled: tuple[str, ...] = ("p", "U"),
+    controlled: Mapping[str, float] | None = None,
 ) -> Dictionary:
     """The dictionary ``system/fvSolution`` for SIMPLEC.
 
@@ -208,7 +274,7 @@ def solution(
     relaxation : the relaxation of velocity.
     coarsest : the number of cells on multigrid's coarsest level.
     velocity_gain : the linear solver's last residual of velocity over its first one, at which it may stop.
-    controlled : the fields whose residuals must meet the tolerance.
+    controlled : residual that each of some fields must reach to end the run; None for the tolerance of ``p`` and ``U``.
     """
     return (
         "dictionary",
@@ -233,7 +299,7 @@ def solution(
                 "nNonOrthogonalCorrectors": 0,
                 "pRefCell": 0,
                 "pRefValue": 0,
-                "residualControl": dict.fromkeys(controlled, tolerance),
+                "residualControl": {"p": tolerance, "U": tolerance} if controlled is None else controlled,
             },
             "relaxationFactors": {
                 "fields": {"p": dialect.pressure_relaxation(relaxation)},
@@ -252,53 +318,3 @@ def liquid(viscosity: float) -> dict[str, Dictionary]:
         ),
         "constant/turbulenceProperties": ("dictionary", {"simulationType": "laminar"}),
     }
-
-
-def _dictionaries(
-    dialect: Dialect, viscosity: float, tolerance: float, scheme: str, processes: int, relaxation: float
-) -> dict[str, Dictionary]:
-    from foamlib import DimensionSet  # slow to import
-
-    return {
-        "system/controlDict": control(ITERATIONS),
-        "system/fvSchemes": schemes(scheme),
-        "system/fvSolution": solution(
-            dialect=dialect,
-            tolerance=tolerance,
-            linear=LINEAR_TOLERANCE,
-            relaxation=relaxation,
-            coarsest=20,
-            velocity_gain=0.01,
-        ),
-        "system/decomposeParDict": (
-            "dictionary",
-            {
-                "numberOfSubdomains": processes,
-                "method": "simple",
-                "simpleCoeffs": {"n": [processes, 1, 1], "delta": 0.001},
-            },
-        ),
-        **liquid(viscosity),
-        "0/U": (
-            "volVectorField",
-            {
-                "dimensions": DimensionSet(length=1, time=-1),
-                "internalField": [0.5, 0.0, 0.0],
-                "boundaryField": _boundary_field(
-                    lower={"type": "noSlip"}, upper={"type": "fixedValue", "value": [1.0, 0.0, 0.0]}
-                ),
-            },
-        ),
-        "0/p": (
-            "volScalarField",
-            {
-                "dimensions": DimensionSet(length=2, time=-2),
-                "internalField": 0.0,
-                "boundaryField": _boundary_field(lower={"type": "zeroGradient"}, upper={"type": "zeroGradient"}),
-            },
-        ),
-    }
-
-
-def _boundary_field(**walls: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
-    return {side.name: walls.get(side.name, {"type": side.entries["type"]}) for side in SIDES}

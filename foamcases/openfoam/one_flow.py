@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from roughfilm.foamcases.openfoam.iterate import Asked, Try
+from roughfilm.foamcases.openfoam.iterate import Asked, Settled, Try
 from roughfilm.foamcases.openfoam.kept import release_of, wall_time
 from roughfilm.foamcases.openfoam.program import Ended
 from roughfilm.foamcases.openfoam.residuals import Judged
@@ -50,8 +50,10 @@ class Run(CaseRun):
     tries: tuple[Try, ...]
 
 
-def run_flow(directory: Path, card: Written, judged: Judged, progress: Progress) -> Run:
+def run_flow(directory: Path, card: Written, judged: Judged, progress: Progress, settled: Settled | None = None) -> Run:
     """Check the mesh, run :func:`roughfilm.foamcases.openfoam.iterate.iterate`, and verify the fields on disk.
+
+    Residuals end the run, or the test ``settled`` if there is one.
 
     Raises
     ------
@@ -66,15 +68,15 @@ def run_flow(directory: Path, card: Written, judged: Judged, progress: Progress)
     version = ready(directory, card.dialect, card.processes)
     wall = time.perf_counter()
     mesh = check_mesh(directory)
-    checked = converge(directory, card, judged, progress)
+    checked = converge(directory, card, judged, progress, settled)
     return _run(mesh, checked, time.perf_counter() - wall, version)
 
 
-def kept_flow_run(directory: Path, card: Written, judged: Judged) -> Run:
+def kept_flow_run(directory: Path, card: Written, judged: Judged, settled: Settled | None = None) -> Run:
     """Read the run of a case that its script ``Allrun`` ran; errors as those of :func:`run_flow`, save OpenFOAM's."""
     version = release_of(directory, card.dialect)
     mesh = kept_mesh(directory)
-    checked = kept_flow(directory, card, judged)
+    checked = kept_flow(directory, card, judged, settled)
     return _run(mesh, checked, wall_time(directory), version)
 
 
@@ -89,7 +91,9 @@ def _run(mesh: Ended, checked: Checked, wall_s: float, version: str) -> Run:
     )
 
 
-def numerics_of(card: Written, run: Run, *, unknowns: int, details: dict[str, float]) -> Numerics:
+def numerics_of(
+    card: Written, run: Run, *, unknowns: int, details: dict[str, float], imbalance: float | None = None
+) -> Numerics:
     """The numerics of the result of a run.
 
     Parameters
@@ -97,6 +101,7 @@ def numerics_of(card: Written, run: Run, *, unknowns: int, details: dict[str, fl
     card : the options with which the case was written.
     unknowns : number of unknowns.
     details : further numbers; the relaxation of velocity and the Reynolds number of the case are added.
+    imbalance : imbalance of the forces on the liquid over the force that drives it; None if it was not computed.
     """
     return Numerics(
         residual=run.residual,
@@ -108,6 +113,14 @@ def numerics_of(card: Written, run: Run, *, unknowns: int, details: dict[str, fl
         tolerance=card.tolerance,
         scheme=card.scheme,
         processes=card.processes,
-        runs=tuple(SolverRun(outcome=str(t.outcome), iterations=t.iterations, recipe=t.recipe) for t in run.tries),
+        runs=tuple(
+            SolverRun(
+                outcome=str(t.outcome),
+                iterations=t.iterations,
+                recipe=t.recipe,
+                imbalance=imbalance if t is run.tries[-1] else None,
+            )
+            for t in run.tries
+        ),
         details={"velocity_relaxation": card.relaxation, "reynolds_number": card.reynolds_number, **details},
     )

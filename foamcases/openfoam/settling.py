@@ -1,13 +1,15 @@
 """The criterion by which a flow has settled, from its mean velocity and its residuals in each iteration."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.reading.regular import read_text
-from roughfilm.foamcases.openfoam.iterate import Settled
+from roughfilm.foamcases.openfoam.dialect import Dialect
+from roughfilm.foamcases.openfoam.iterate import STOP, Settled
 from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
 
 MEAN_VELOCITY = "flow"
@@ -29,6 +31,36 @@ MIN_VELOCITY = 1e-6
 
 MAX_STEP_RATIO = 0.98
 """Largest ratio of successive steps in the extrapolation, which stays finite where steps of round-off do not shrink."""
+
+
+ALL_CELLS = {"select": "all", "cellZone": "all"}
+"""The two names, by release, of the entry that selects all cells; ``select`` is openfoam.org's from 11 on,
+``cellZone`` from 13 on."""
+
+
+def functions(dialect: Dialect) -> dict[str, dict[str, Any]]:
+    """The functions of ``system/controlDict`` that log the mean velocity, and end a run when the file ``STOP`` appears.
+
+    A function that ends a run looks for a file of its own name in the directory of the case.
+    """
+    return {
+        MEAN_VELOCITY: {
+            "type": "volFieldValue",
+            "libs": ['"libfieldFunctionObjects.so"'],
+            "fields": ["U"],
+            "operation": "volAverage",
+            "regionType": "all",
+            **ALL_CELLS,
+            "writeFields": False,
+            "writePrecision": 12,
+            "log": False,
+        },
+        STOP: {
+            "type": dialect.stop,
+            "libs": ['"libutilityFunctionObjects.so"'],
+            "action": "writeNow",
+        },
+    }
 
 
 def settled_within(tolerance: float, case: Path, judged: Judged) -> Settled:

@@ -1,6 +1,5 @@
 """Write the case directory of a pocket scene: mesh, dictionaries, and a README and a script to run it by hand."""
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from roughfilm.contact.foundation.arrays import Array
@@ -10,15 +9,10 @@ from roughfilm.foamcases.openfoam.block_mesh import in_space, write_block
 from roughfilm.foamcases.openfoam.case_directory import write_papers, write_whole, written_for
 from roughfilm.foamcases.openfoam.dialect import Dialect
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, write_dictionaries, write_second_try
-from roughfilm.foamcases.openfoam.relaxation import velocity_relaxation
 from roughfilm.foamcases.openfoam.residuals import Judged
+from roughfilm.foamcases.pocket.card import Card, layers_of
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.pocket.scene import Pocket
-
-LAYERS_PER_COLUMN = 1 / 5
-"""Number of cells across the film over the number along it."""
-
-MIN_LAYERS = 4
 
 README = """\
 One period of a groove under a sliding wall, for OpenFOAM's simpleFoam. Run it with ./Allrun
@@ -31,25 +25,6 @@ The upper wall (patch "upper", y = 1) slides; "inlet" and "outlet" are one perio
 """
 
 
-@dataclass(frozen=True, kw_only=True)
-class Card:
-    """The options with which a case was written, which are needed to run it and read it back."""
-
-    columns: int
-    layers: int
-    reynolds_number: float
-    resolution: int
-    tolerance: float
-    scheme: str
-    processes: int
-    dialect: str
-
-    @property
-    def relaxation(self) -> float:
-        """The relaxation of velocity in SIMPLEC."""
-        return velocity_relaxation(self.columns)
-
-
 def vertices_of(scene: Pocket, resolution: int) -> Array:
     """The corners of the cells of a scene's mesh, shape (columns + 1, layers + 1, 2, 3), in film thicknesses.
 
@@ -58,9 +33,7 @@ def vertices_of(scene: Pocket, resolution: int) -> Array:
     scene : the pocket scene.
     resolution : number of columns along the film, about; there are a fifth as many layers, and at least 4.
     """
-    layers = max(MIN_LAYERS, round(resolution * LAYERS_PER_COLUMN))
-    plane = orthogonal(scene.gap(), resolution, layers)
-    return in_space(plane)
+    return in_space(orthogonal(scene.gap(), resolution, layers_of(resolution)))
 
 
 def write_case(
@@ -112,7 +85,7 @@ def write_case(
             viscosity=1 / reynolds_number,
             tolerance=request.tolerance,
             scheme=scheme,
-            processes=processes,
+            parts=(processes, 1),
             relaxation=card.relaxation,
         )
         if not run:

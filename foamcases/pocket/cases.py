@@ -2,10 +2,12 @@
 
 from pathlib import Path
 
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.one_flow import Run, numerics_of
-from roughfilm.foamcases.pocket.case import Card
+from roughfilm.foamcases.pocket.card import Card
 from roughfilm.foamcases.pocket.fields import read_channel
+from roughfilm.foamcases.pocket.plan.cases import read_plan
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Result
@@ -15,8 +17,13 @@ from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 
 def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Result:
     """Read the result of a case that was run; errors as in :func:`roughfilm.foamcases.pocket.fields.read_channel`."""
-    model, keeps = solver.name, solver.keeps
-    card, channel = read_card(directory, Card), read_channel(directory)
+    model, keeps, card = solver.name, solver.keeps, read_card(directory, Card)
+    if bool(card.rows) != scene.in_plan:
+        of = ("grooves", "a cell in plan")
+        raise InputError(f"{directory}: holds a case of {of[bool(card.rows)]}, and the scene has {of[scene.in_plan]}")
+    if scene.in_plan:
+        return read_plan(solver, scene, directory, card, run)
+    channel = read_channel(directory)
     film, pascal = scene.geometry.film, scene.pressure_unit
     lowest, highest = channel.pressure_range(0.0)
     return Result(

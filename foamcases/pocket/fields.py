@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.foamcases.conformal.channel import Channel
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.fields import internal_field, last_fields, points
-from roughfilm.foamcases.pocket.case import Card
+from roughfilm.foamcases.pocket.card import Card
 
 
 def read_channel(directory: Path) -> Channel:

@@ -11,7 +11,7 @@ from roughfilm.foamcases.openfoam.allrun import allrun
 from roughfilm.foamcases.openfoam.block_mesh import write_block
 from roughfilm.foamcases.openfoam.case_directory import write_papers, write_whole, written_for
 from roughfilm.foamcases.openfoam.dialect import Dialect
-from roughfilm.foamcases.openfoam.dictionaries import write_files, write_second_try
+from roughfilm.foamcases.openfoam.dictionaries import parts_of, write_files, write_second_try
 from roughfilm.foamcases.openfoam.memory import check_memory
 from roughfilm.foamcases.openfoam.residuals import Judged
 from roughfilm.foamcases.rough_gap.dictionaries import (
@@ -20,7 +20,6 @@ from roughfilm.foamcases.rough_gap.dictionaries import (
     SIDES,
     Drive,
     gap_dictionaries,
-    parts_of,
     relaxation,
 )
 from roughfilm.foamcases.rough_gap.mesh import Columns, columns_between

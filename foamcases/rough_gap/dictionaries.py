@@ -8,9 +8,8 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.foamcases.openfoam.block_mesh import Patch
 from roughfilm.foamcases.openfoam.dialect import Dialect
 from roughfilm.foamcases.openfoam.dictionaries import Dictionary, control, liquid, schemes, solution
-from roughfilm.foamcases.openfoam.iterate import STOP
 from roughfilm.foamcases.openfoam.residuals import FIELDS
-from roughfilm.foamcases.openfoam.settling import MEAN_VELOCITY
+from roughfilm.foamcases.openfoam.settling import ALL_CELLS, functions
 
 ITERATIONS = 3000
 """Largest number of iterations."""
@@ -84,48 +83,6 @@ def relaxation(layers: int, cells: tuple[float, float], *, straight: bool = Fals
     return 0.999 if straight else 1 - 0.8 / math.sqrt(layers**2 + cells[0] ** -2 + cells[1] ** -2)
 
 
-def parts_of(processes: int, size: tuple[float, float]) -> tuple[int, int]:
-    """The numbers of parts along x and y into which a period is divided, so that the parts are as square as possible.
-
-    Parameters
-    ----------
-    processes : number of parts.
-    size : length and width of the period, in any one unit.
-    """
-    pairs = [(n, processes // n) for n in range(1, processes + 1) if processes % n == 0]
-    return min(pairs, key=lambda pair: abs(math.log(size[0] / pair[0] * pair[1] / size[1])))
-
-
-ALL_CELLS = {"select": "all", "cellZone": "all"}
-"""The two names, by release, of the entry that selects all cells; ``select`` is openfoam.org's from 11 on,
-``cellZone`` from 13 on."""
-
-
-def functions(dialect: Dialect) -> dict[str, dict[str, Any]]:
-    """The functions of ``system/controlDict`` that log the mean velocity, and end a run when the file ``STOP`` appears.
-
-    A function that ends a run looks for a file of its own name in the directory of the case.
-    """
-    return {
-        MEAN_VELOCITY: {
-            "type": "volFieldValue",
-            "libs": ['"libfieldFunctionObjects.so"'],
-            "fields": ["U"],
-            "operation": "volAverage",
-            "regionType": "all",
-            **ALL_CELLS,
-            "writeFields": False,
-            "writePrecision": 12,
-            "log": False,
-        },
-        STOP: {
-            "type": dialect.stop,
-            "libs": ['"libutilityFunctionObjects.so"'],
-            "action": "writeNow",
-        },
-    }
-
-
 def gap_dictionaries(
     drive: Drive,
     *,
@@ -179,7 +136,7 @@ def gap_dictionaries(
             relaxation=relaxation,
             coarsest=COARSEST,
             velocity_gain=VELOCITY_GAIN,
-            controlled=("p", "U") if {*moving} == {*FIELDS} else (),
+            controlled=None if {*moving} == {*FIELDS} else {},
         ),
         "system/decomposeParDict": (
             "dictionary",

@@ -1,7 +1,7 @@
 """Choice of the cheapest model that is accurate enough, by fitted error laws and by comparison with other models."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
@@ -17,7 +17,7 @@ from roughfilm.rom.advice.estimates import (
 from roughfilm.rom.advice.laws import Numbers, Table, lawful, table
 from roughfilm.rom.advice.stated import StatedError, percent
 from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_scene
-from roughfilm.rom.ladder.model import Model, Progress, best, silent
+from roughfilm.rom.ladder.model import Model, Progress, best_for, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
@@ -51,7 +51,7 @@ class ModelVerdict:
     verdict, reason : the verdict and the reason for it, without a number for the error.
     a_priori : estimate of the error by the laws; None if unknown.
     a_posteriori : estimate of the error from runs; None if the models were not run.
-    omitted : part of the effect that all models leave out, over the size of the quantity, which adds to the error.
+    omitted : part of the effect that the model leaves out and that the laws do not count, which adds to the error.
     """
 
     model: str
@@ -108,8 +108,8 @@ class Advice:
     numbers : the dimensionless numbers of the scene.
     result : the result of the chosen model, or of ``fallback``; None if the model was not run.
     spent_cpu_s : CPU time of all runs, s.
-    omitted : the effect that every model of the kind omits, whose part is subtracted from the tolerance; None if there
-        is no such effect.
+    omitted : by model, the effect that it leaves out and that the laws do not count, whose part is subtracted from the
+        tolerance.
     """
 
     quantity: str
@@ -123,7 +123,7 @@ class Advice:
     numbers: Numbers
     result: Result | None
     spent_cpu_s: float
-    omitted: Omission | None = None
+    omitted: Mapping[str, Omission] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         taken = self.chosen
@@ -150,8 +150,10 @@ def wanted(scene: Scene, name: str | None) -> str:
 def shortfall(advice: Advice) -> str:
     """The message that no model is accurate enough, with the remedy or the most accurate model if they are known."""
     message = f"no model here is known to give the {advice.title} within {percent(advice.within)}"
-    if advice.omitted is not None and advice.omitted.part > advice.within / 2:
-        return f"{message}: {advice.omitted.reason}"
+    taken = advice.nearest or advice.fallback
+    omitted = None if taken is None else advice.omitted.get(taken.model)
+    if omitted is not None and omitted.part > advice.within / 2:
+        return f"{message}: {omitted.reason}"
     if advice.finer is not None:
         cost = f"{advice.finer.cpu_s:.2g} CPU s"
         return f"{message}; {advice.finer.model} at resolution {advice.finer.resolution} is expected to ({cost})"
@@ -178,8 +180,8 @@ def advise(
     the smaller of two estimates: by error laws fitted to random scenes, and by the difference from the next model, if
     that model is cheap and the checks of all cheaper pairs cost little (:func:`affordable`). Neither depends on the
     tolerance, so that a looser tolerance never chooses a more expensive pair. A pair is not run if the laws expect more
-    than ``MAX_ERROR_RATIO`` tolerances. The effect that all models omit is subtracted from the tolerance. An error is a
-    bound that 95 of 100 scenes do not exceed.
+    than ``MAX_ERROR_RATIO`` tolerances. An effect that a model leaves out and that the laws do not count is subtracted
+    from its tolerance. An error is a bound that 95 of 100 scenes do not exceed.
 
     Parameters
     ----------
@@ -220,8 +222,6 @@ def advise(
                 raise
         return known[key]
 
-    omitted = kind.omitted(scene, quantity)
-    left = within - (omitted.part if omitted else 0.0)
     fits = {model.name: model.applies(scene) for model in models}
     task = AdviceTask(
         scene=scene,
@@ -233,7 +233,8 @@ def advise(
         numbers=kind.numbers(scene),
         run=solved,
         failed=failed,
-        omitted=omitted.part if omitted else 0.0,
+        omitted=_omitted(scene, [model for model in models if fits[model.name].applies], quantity),
+        within=within,
     )
     if not task.models:
         raise InputError(f"scene: no model applies: {'; '.join(fit.reason for fit in fits.values())}")
@@ -242,7 +243,7 @@ def advise(
         for name, fit in fits.items()
         if not fit.applies
     ]
-    judged = _judged(task, left)
+    judged = _judged(task)
     chosen = next((one for one in judged if one.verdict is Verdict.CHOSEN), None)
     here = {model.name for model in task.models if model.available().available}
     candidates = [one for one in judged if one.verdict is Verdict.NOT_ENOUGH and one.model in here]
@@ -258,16 +259,23 @@ def advise(
         chosen=chosen,
         nearest=nearest,
         fallback=fallback,
-        finer=None if chosen else _finer(task, left),
+        finer=None if chosen else _finer(task),
         considered=(*does_not_apply, *judged),
         numbers=task.numbers,
         result=known.get((taken.model, taken.resolution or 0)) if taken else None,
         spent_cpu_s=sum(result.numerics.cpu_s for result in known.values()),
-        omitted=omitted,
+        omitted=task.omitted,
     )
 
 
-def _judged(task: AdviceTask, within: float) -> list[ModelVerdict]:
+def _omitted(scene: Scene, models: Sequence[Model], quantity: str) -> dict[str, Omission]:
+    """The effects that the models leave out and that the laws do not count, by model."""
+    kind = kind_of_scene(scene)
+    found = {model.name: kind.omitted(scene, model, quantity) for model in models}
+    return {name: omission for name, omission in found.items() if omission is not None}
+
+
+def _judged(task: AdviceTask) -> list[ModelVerdict]:
     """The verdict on every model that applies, cheapest first: at the accepted resolution, or at the most accurate."""
     pairs = [(model, resolution) for model in task.models for resolution in task.resolutions(model)]
     pairs.sort(key=lambda pair: (task.cost(*pair), -len(pair[0].keeps)))
@@ -278,10 +286,11 @@ def _judged(task: AdviceTask, within: float) -> list[ModelVerdict]:
     for model, resolution in pairs:
         if model.name in hopeless:
             continue
+        within = task.left(model)
         one = (
-            _after(task, model, resolution, within)
+            _after(task, model, resolution)
             if chosen or within <= 0
-            else _verdict(task, model, resolution, within, checked=(model.name, resolution) in checked)
+            else _verdict(task, model, resolution, checked=(model.name, resolution) in checked)
         )
         before = verdicts.get(model.name)
         if before is None or _better(one, before):
@@ -300,7 +309,7 @@ def _most_complete(task: AdviceTask, judged: Sequence[ModelVerdict]) -> ModelVer
     failing = (Verdict.NOT_HERE, Verdict.FAILED)
     by_name = {one.model: one for one in judged if one.verdict not in failing}
     here = [model for model in task.models if model.name in by_name and model.available().available]
-    return by_name[best(here).name] if here else None
+    return by_name[best_for(task.scene, here).name] if here else None
 
 
 def _better(one: ModelVerdict, other: ModelVerdict) -> bool:
@@ -310,11 +319,11 @@ def _better(one: ModelVerdict, other: ModelVerdict) -> bool:
     return (one.sure, -one.error) > (other.sure, -other.error)
 
 
-def _finer(task: AdviceTask, within: float) -> ModelVerdict | None:
+def _finer(task: AdviceTask) -> ModelVerdict | None:
     """The cheapest model, at a resolution beyond its series, that the laws expect to be within the tolerance."""
     expected = []
     for model in task.models:
-        offered = model.offered(task.scene)
+        offered, within = model.offered(task.scene), task.left(model)
         resolution = 2 * max(offered.series)
         while resolution <= offered.most and model.available().available and within > 0:
             before = a_priori(task, model, resolution)
@@ -342,15 +351,15 @@ def _as_verdict(
         reason=reason,
         a_priori=before,
         a_posteriori=after,
-        omitted=task.omitted,
+        omitted=task.part_omitted(model),
     )
 
 
-def _after(task: AdviceTask, model: Model, resolution: int, within: float) -> ModelVerdict:
+def _after(task: AdviceTask, model: Model, resolution: int) -> ModelVerdict:
     """The verdict on a model that is not run, since a cheaper one is chosen or the tolerance is used up."""
-    before = a_priori(task, model, resolution)
+    before, within = a_priori(task, model, resolution), task.left(model)
     if within <= 0:
-        reason = "the effect that all models leave out exceeds the tolerance"
+        reason = "an effect that it leaves out and that the laws do not count exceeds the tolerance"
         return _as_verdict(task, model, resolution, Verdict.NOT_ENOUGH, reason, before)
     if before is not None and not before.error <= within:
         return _as_verdict(task, model, resolution, Verdict.NOT_ENOUGH, _main(before), before)
@@ -364,8 +373,9 @@ def _accepts(estimate: Estimate | None, within: float) -> bool:
     return estimate is not None and estimate.sure and estimate.error <= within
 
 
-def _verdict(task: AdviceTask, model: Model, resolution: int, within: float, *, checked: bool) -> ModelVerdict:
+def _verdict(task: AdviceTask, model: Model, resolution: int, *, checked: bool) -> ModelVerdict:
     """The verdict on a model at a resolution, which is run if it is to be ``checked``."""
+    within = task.left(model)
     here, before = model.available(), a_priori(task, model, resolution)
     if not here.available:
         return _as_verdict(task, model, resolution, Verdict.NOT_HERE, here.detail, before)

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid
 from roughfilm.rom.advice.stated import BY_ITS_RUN, BY_LAWS, StatedError
-from roughfilm.rom.ladder.kind import Kind, Scene
-from roughfilm.rom.ladder.model import Model, best, find
+from roughfilm.rom.ladder.kind import Kind, Omission, Scene
+from roughfilm.rom.ladder.model import Model, best_for, find
 from roughfilm.rom.ladder.result import Result
 
 MAX_COST_OF_BEST = 0.01
@@ -48,7 +48,7 @@ class Estimate:
     difference: float | None = None
 
     def stated(self, omitted: float = 0.0) -> StatedError:
-        """The error as it is stated, with the part of the effect that all models leave out."""
+        """The error as it is stated, with the part of the effect that the laws do not count."""
         error = self.error + omitted
         beyond = None if self.difference is None else error - abs(self.difference)
         return StatedError(error=error, source=self.source, difference=self.difference, uncertainty=beyond)
@@ -68,7 +68,8 @@ class AdviceTask:
     numbers : dimensionless numbers of the scene.
     run : run(model, resolution), which returns a result.
     failed : error of every run that failed, by name of the model and resolution.
-    omitted : part of the effect that all models leave out, over the size of the quantity.
+    omitted : by model, the effect that it leaves out and that the laws do not count.
+    within : tolerated error over the size of the quantity.
     """
 
     scene: Scene
@@ -80,7 +81,16 @@ class AdviceTask:
     numbers: Numbers
     run: Callable[[Model, int], Result]
     failed: Mapping[tuple[str, int], Exception] = field(default_factory=dict)
-    omitted: float = 0.0
+    omitted: Mapping[str, Omission] = field(default_factory=dict)
+    within: float = 0.0
+
+    def part_omitted(self, model: Model) -> float:
+        """The part of the effect that a model leaves out and that the laws do not count; 0 without one."""
+        return self.omitted[model.name].part if model.name in self.omitted else 0.0
+
+    def left(self, model: Model) -> float:
+        """The tolerance that remains for the error by the laws and by runs of a model."""
+        return self.within - self.part_omitted(model)
 
     def step(self, model: Model) -> Step | None:
         """The step from a model to the next one that applies; None for the most complete model."""
@@ -301,7 +311,7 @@ def affordable(task: AdviceTask, pairs: Sequence[tuple[Model, int]]) -> set[tupl
     The pairs are taken in order of cost, as long as all runs together cost at most ``BUDGET`` of the best model here at
     its finest usual resolution. That run itself is always affordable. The choice does not depend on the tolerance.
     """
-    top = best([model for model in task.models if model.available().available] or task.models)
+    top = best_for(task.scene, [model for model in task.models if model.available().available] or task.models)
     finest = max(task.resolutions(top))
     left = BUDGET * task.cost(top, finest)
     paid = {(top.name, finest)}
@@ -344,7 +354,7 @@ def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estima
 
 def _cheap(task: AdviceTask, check: float, cost: float) -> bool:
     """Whether a check of this cost is cheap compared with the best model, or with the checked model of this cost."""
-    top = best(task.models)
+    top = best_for(task.scene, task.models)
     return check <= max(MAX_COST_OF_BEST * task.cost(top, top.resolution_of(task.scene)), MAX_COST_OF_MODEL * cost)
 
 

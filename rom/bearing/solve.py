@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.timing import one_time, working_time
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
@@ -72,14 +71,11 @@ def solve(
     Raises
     ------
     InputError
-        If the model does not apply to the scene, or no film carries its load.
+        If no film carries the load of the scene.
     ConvergenceError
         If the film or its load does not converge.
     """
     cells = request.resolution
-    fits = solver.applies(scene)
-    if not fits.applies:
-        raise InputError(f"model: got {solver.name!r}; {fits.reason}")
     if scene.load is None:
         problem = film(scene)
         with one_time("start"):

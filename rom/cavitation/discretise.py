@@ -35,13 +35,15 @@ class Ends:
     """Boundary conditions: pressures above cavitation pressure, Pa, and the filling of the inlet.
 
     ``inlet`` is None for a starved inlet, where θ = ``theta`` <= 1 holds instead of a pressure; ``sides`` is None for
-    sides without flow.
+    sides without flow. ``anchor`` is the position (x, y) and the pressure, Pa, of the one full node of a film that is
+    periodic in both directions, whose pressure nothing else determines.
     """
 
     inlet: float | None = None
     theta: float = 1.0
     outlet: float = 0.0
     sides: tuple[float, float] | None = None
+    anchor: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -186,6 +188,10 @@ def network(
             supply[[0, -1]] = 0
     if supply is not None:
         north[0] = 0
+    if ends.anchor is not None:
+        x, y, given = ends.anchor
+        node = int(np.abs(grid.x - x).argmin()), int(np.abs(grid.y - y).argmin())
+        fixed[node], pressure[node] = True, given
     lay = _oblique(grid, faces, north, fixed, speed, viscosity, compressibility, supplied=supply is not None)
     spills = (False, False)
     if lay is not None and ruptures and ends.sides is not None:

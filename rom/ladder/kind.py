@@ -52,8 +52,13 @@ def plain_faults(error: ValidationError, _entries: Mapping[str, Any], *, scene: 
     return faults_of(error, unknown)
 
 
-def nothing_omitted(_scene: Any, _quantity: str) -> None:
+def nothing_omitted(_scene: Any, _model: Any, _quantity: str) -> None:
     """Return no omission, for kinds whose most complete model keeps every relevant effect."""
+
+
+def nothing_missing(_scene: Any, _model: Any) -> float:
+    """Return 0, for kinds whose model that keeps the most effects is the most complete one for every scene."""
+    return 0.0
 
 
 def within_laws(_scene: Any, _result: Any, _quantity: str) -> str:
@@ -78,7 +83,7 @@ def nothing_remarked(_entries: Mapping[str, Any], _quantities: Mapping[str, Quan
 
 @dataclass(frozen=True, kw_only=True)
 class Omission:
-    """An effect that every model of a kind leaves out.
+    """An effect that a model leaves out and that the error laws do not count.
 
     Attributes
     ----------
@@ -120,7 +125,10 @@ class Kind:
     window : window(scene), the rough surface that stands for a larger one; None if a scene has none.
     composed : composed(scene), a line on the model of each effect of a scene, with its reason.
     excluded : the effects that no model of the kind includes, in words.
-    omitted : omitted(scene, quantity), the size of such an effect; None if it is zero or unknown.
+    omitted : omitted(scene, model, quantity), the size of an effect that a model leaves out and that the error laws do
+        not count, such as one that no model of the kind includes; None if it is zero or unknown.
+    missing : missing(scene, model), the relative size of the effects that a model leaves out in a scene, where no model
+        keeps them all: the best model for the scene misses least.
     outside_laws : outside_laws(scene, result, quantity), the reason for which a result shows that the error laws of a
         quantity do not hold; empty if it does not.
     faults : faults(error, entries), the faults of a scene, from pydantic's error; None for ``plain_faults``.
@@ -144,7 +152,8 @@ class Kind:
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
-    omitted: Callable[[Any, str], Omission | None] = nothing_omitted
+    omitted: Callable[[Any, Any, str], Omission | None] = nothing_omitted
+    missing: Callable[[Any, Any], float] = nothing_missing
     outside_laws: Callable[[Any, Any, str], str] = within_laws
     files: frozenset[str] = frozenset()
     no_files: frozenset[str] = frozenset()

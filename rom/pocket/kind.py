@@ -122,7 +122,16 @@ def worth(values: Columns) -> NDArray[np.bool_]:
     return np.asarray(np.abs(values["load_plus"]) > MIN_JUDGED_LOAD * largest_pressure(values))
 
 
-def omitted(scene: Pocket, quantity: str) -> Omission | None:
+ZERO_IN_PLAN = "pressures count from their mean over the edges x = ±L/2 of the cell on the sliding wall"
+"""The place where the pressure of a cell in plan is zero, in words."""
+
+
+def remarks(entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
+    """The place where the pressure of a cell in plan is zero, on which its load depends."""
+    return (ZERO_IN_PLAN,) if "dimples" in entries["geometry"] else ()
+
+
+def omitted(scene: Pocket, _model: Any, quantity: str) -> Omission | None:
     """The effect of cavitation; None if the film does not rupture."""
     from roughfilm.rom.pocket.omission import rupture_omitted  # slow to import
 
@@ -184,6 +193,7 @@ KIND = Kind(
     compared={name: TITLES[name] for name in COMPARED},
     others={name: title for name, title in TITLES.items() if name not in COMPARED},
     reported=REPORTED,
+    remarks=remarks,
     scale=scale,
     columns=columns,
     numbers=numbers,

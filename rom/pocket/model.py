@@ -131,17 +131,21 @@ def quadrature_model(*, applies: Callable[[Pocket], Applicability], **about: Unp
 
 
 def cavitating_model(*, applies: Callable[[Pocket], Applicability], **about: Unpack[About]) -> Model[Pocket]:
-    """A model whose film ruptures at the cavitation pressure; the cost was measured for 256 to 4096 cells."""
+    """A model whose film ruptures at the cavitation pressure; the cost was measured for 256 to 4096 cells.
+
+    Cells in plan were measured with 32 to 128 columns.
+    """
     least, most = CAVITATING_RANGE
+    grooves = Resolutions(least=least, most=most, default=CAVITATING_CELLS[-1], series=CAVITATING_CELLS)
     return Model(
         **about,
         kind="pocket",
-        resolutions=Resolutions(least=least, most=most, default=CAVITATING_CELLS[-1], series=CAVITATING_CELLS),
-        resolution_meaning=CAVITATING_RESOLUTION_MEANING,
+        resolutions=in_plan_or_not(grooves),
+        resolution_meaning=f"{CAVITATING_RESOLUTION_MEANING}; {PLAN_RESOLUTION_MEANING}",
         residual_meaning=CAVITATING_RESIDUAL_MEANING,
         order=2,
         tolerance=RESIDUAL_TOLERANCE,
-        cost=lambda _scene, resolution: 5e-3 + 2e-6 * resolution,
+        cost=lambda scene, resolution: 5e-2 + 2.5e-5 * resolution**2 if scene.in_plan else 5e-3 + 2e-6 * resolution,
         applies=applies,
         compute=deferred("rom.pocket.cavitating.solve", "solve"),
     )

@@ -92,7 +92,7 @@ def numbers(scene: RoughGap) -> dict[str, float]:
     }
 
 
-def omitted(scene: RoughGap, quantity: str) -> Omission | None:
+def omitted(scene: RoughGap, _model: Any, quantity: str) -> Omission | None:
     """The effect of cavitation; None if the film does not rupture."""
     from roughfilm.rom.rough_gap.omission import rupture_omitted  # slow to import
 

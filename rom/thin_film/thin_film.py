@@ -11,9 +11,8 @@ second-order finite volumes: the momentum through a face is reconstructed at eac
 downstream for back-flow, so that the solution has no oscillations.
 
 A gap is periodic, or has two ends with prescribed pressures. The cells of both form a ring, whose cut is between the
-last cell and the first. Where liquid enters through an end, the amplitudes a_k, k > 0, are those of the outermost cell:
-their gradient along the film is zero, and in a film of constant thickness the flow enters developed. Where it leaves,
-they are extrapolated.
+last cell and the first. Liquid enters through an end with the developed velocity of a flow between parallel walls,
+u = Y + a_0 φ_0, so that a_k = 0 for k > 0. Where it leaves, the a_k are extrapolated.
 """
 
 from dataclasses import dataclass
@@ -30,8 +29,8 @@ from roughfilm.rom.thin_film.gap import Gap
 OFFSETS = (-2, -1, 0, 1)
 """The cells whose values are interpolated to a face, relative to the cell on its right."""
 
-UNCHANGED = ((0.0, 0.0, 1.0, 0.0), (0.0, 1.0, 0.0, 0.0))
-"""Weights of these cells at the two faces of an outermost cell beyond which the flow does not change."""
+DEVELOPED = ((0.0, 0.0, 0.0, 0.0), (0.0, 2.0, 0.0, 0.0))
+"""Weights of these cells at the two faces of the first cell, into which developed flow enters: a_k = 0 at the end."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,7 +95,7 @@ def strip(gap: Gap, resolution: int, *, second_order: bool = True, pressure_diff
     middle[:, 1], middle[:, 2] = right / (left + right), left / (left + right)
     inside = np.ones(faces.size)
     if pressure_difference is not None:
-        from_left[:2], from_right[-2:] = UNCHANGED, UNCHANGED
+        from_left[:2], from_right[-2:] = DEVELOPED, [parts[::-1] for parts in reversed(DEVELOPED)]
         middle[0], middle[-1], inside[[0, -1]] = from_left[0], from_left[-1], 0.0
     return Strip(
         faces=faces,

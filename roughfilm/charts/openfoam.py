@@ -19,7 +19,7 @@ from roughfilm.foamcases.openfoam.case_directory import CARD, read_card
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, Dictionary, control, write_files
 from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.foamcases.openfoam.program import Ended, succeed
-from roughfilm.foamcases.pocket.case import Card
+from roughfilm.foamcases.pocket.card import Card
 from roughfilm.foamcases.pocket.fields import read_channel
 from roughfilm.foamcases.pocket.models.navier_stokes import MODEL as NAVIER_STOKES
 from roughfilm.rom.ladder.request import Request

@@ -2,8 +2,8 @@
 
 import textwrap
 import tomllib
-from collections.abc import Iterator, Mapping
-from functools import cache
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -75,19 +75,27 @@ def annotated_scene(kind: str, variant: str | None = None) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _table(path: tuple[str, ...], node: Node, example: Node | None, definitions: Node) -> Iterator[str]:
-    """The lines of a table: its own keys, and then the tables in it; all are comments without an example."""
-    tables = []
+def _table(
+    path: tuple[str, ...], node: Node, example: Node | None, definitions: Node, others: Node | None = None
+) -> Iterator[str]:
+    """The lines of a table: its own keys, and then the tables in it; all are comments without an example.
+
+    ``others`` are the entries of a table beside it, from which keys without a value take theirs.
+    """
+    tables, lists = [], []
     for key, given in node["properties"].items():
         ways = [*forms_of(given, definitions)]
         plain = [way for way in ways if "properties" not in way]
         whole = [way for way in ways if "properties" in way]
         value = None if example is None else example.get(key)
         # A table shows all its forms, unless the entry is usually the name of a file.
-        if whole and (isinstance(value, dict) or (value is None and not (plain and key in _examples()["optional"]))):
+        rows = _rows(plain, definitions)
+        if rows and value:
+            lists.append((key, given, rows, value))
+        elif whole and (isinstance(value, dict) or (value is None and not (plain and key in _examples()["optional"]))):
             tables.append((key, given, whole, value))
         else:
-            yield from _line(key, {**plain[0], **given}, value)
+            yield from _line(key, {**plain[0], **given}, value, others or {})
     for key, given, whole, value in tables:
         for way in [max(whole, key=lambda way: _fit(way, value))] if value is not None else whole:
             inner = (*path, key)
@@ -97,6 +105,22 @@ def _table(path: tuple[str, ...], node: Node, example: Node | None, definitions:
             form = f"one of {len(whole)} forms: " if len(whole) > 1 and value is None else ""
             yield from _wrapped(header, form + (meaning or ""))
             yield from _table(inner, way, value, definitions)
+    for key, given, rows, entries in lists:
+        inner = (*path, key)
+        best = [max(rows, key=partial(_fit, value=entry)) for entry in entries]
+        for way, entry in [*zip(best, entries, strict=True), *((way, None) for way in rows if way not in best)]:
+            yield ""
+            meaning = way.get("description", given.get("description", ""))
+            form = "another form: " if entry is None else ""
+            yield from _wrapped(f"{'# ' if entry is None else ''}[[{'.'.join(inner)}]]", form + meaning)
+            yield from _table(inner, way, entry, definitions, entries[0])
+
+
+def _rows(ways: Iterable[Node], definitions: Node) -> list[Node]:
+    """The forms of the tables in a list of tables, their fixed values first; none for another entry."""
+    rows = [row for way in ways for row in forms_of(way.get("items", {}), definitions) if "properties" in row]
+    ordered = [dict(sorted(row["properties"].items(), key=lambda one: "const" not in one[1])) for row in rows]
+    return [{**row, "properties": keys} for row, keys in zip(rows, ordered, strict=True)]
 
 
 def forms_of(node: Node, definitions: Node) -> Iterator[Node]:
@@ -117,14 +141,16 @@ def _fit(way: Node, value: Node) -> tuple[bool, int]:
     return agrees, len(value.keys() & way["properties"].keys()) - len(value.keys() - way["properties"].keys()) * 100
 
 
-def _line(key: str, node: Node, value: object) -> Iterator[str]:
+def _line(key: str, node: Node, value: object, others: Node) -> Iterator[str]:
     """The line of a key, as a comment if it has no value and may be left out, or its table is one."""
     notes = [node.get("description", "")]
     if "enum" in node and not all(str(one) in notes[0] for one in node["enum"]):
         notes.append(" or ".join(map(toml_value, node["enum"])))
     if value is None and "default" in node:
         notes.append("default")
-    shown = toml_value(sample_of(key, node) if value is None else value)
+    own = "const" in node or "default" in node
+    sample = sample_of(key, node) if own or key not in others else others[key]
+    shown = toml_value(sample if value is None else value)
     return _wrapped(f"{'# ' if value is None else ''}{key} = {shown}", "; ".join(filter(None, notes)))
 
 

@@ -1,7 +1,7 @@
-"""The map of the pocket models: where each model converges with each scheme, over Reynolds number and depth."""
+"""The maps of the pocket models: where each model converges with each scheme, over Reynolds number and depth."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -35,6 +35,18 @@ GROOVE = {
 }
 """Entries of the scene of the groove of Sahlin et al. 2005, doi:10.1115/1.1828067, without a depth."""
 
+DIMPLE = {
+    **GROOVE,
+    "name": "dimple",
+    "geometry": {
+        "length": "1 mm",
+        "breadth": "1 mm",
+        "film": with_unit(FILM, "m"),
+        "dimples": [{"shape": "spherical", "width": "0.5 mm"}],
+    },
+}
+"""Entries of the scene of a spherical dimple in a square cell, without a depth."""
+
 
 def available_models(kind: str) -> tuple[list[Model], dict[str, str]]:
     """The models of a kind that are available on this machine, and by name the reason why the others are absent."""
@@ -42,18 +54,24 @@ def available_models(kind: str) -> tuple[list[Model], dict[str, str]]:
     return [model for model in models(kind) if model.name not in absent], absent
 
 
-def scene_at(reynolds_number: float, depth_plus: float) -> Pocket:
-    """The scene at a Reynolds number and a depth over the film thickness."""
-    geometry = {**GROOVE["geometry"], "depth": with_unit(depth_plus * FILM, "m")}  # type: ignore[dict-item]
-    scene = read_scene({**GROOVE, "geometry": geometry, "motion": {"reynolds_number": reynolds_number}})
+def scene_at(reynolds_number: float, depth_plus: float, entries: Mapping[str, Any] = GROOVE) -> Pocket:
+    """The scene at a Reynolds number and a depth over the film thickness; ``entries`` have no depth."""
+    depth = {"depth": with_unit(depth_plus * FILM, "m")}
+    geometry = entries["geometry"]
+    if "dimples" in geometry:
+        geometry = {**geometry, "dimples": [{**one, **depth} for one in geometry["dimples"]]}
+    else:
+        geometry = {**geometry, **depth}
+    scene = read_scene({**entries, "geometry": geometry, "motion": {"reynolds_number": reynolds_number}})
     assert isinstance(scene, Pocket)
     return scene
 
 
 @dataclass(frozen=True, kw_only=True)
 class Places:
-    """The Reynolds numbers and the depths over the film thickness at which the groove is solved."""
+    """The Reynolds numbers and the depths over the film thickness at which a groove or a dimple is solved."""
 
+    entries: Mapping[str, Any] = field(default_factory=lambda: GROOVE)
     reynolds_numbers: tuple[float, ...] = (40.0, 160.0, 500.0, 1000.0, 2000.0, 5000.0)
     depths_plus: tuple[float, ...] = (0.25, 0.5, 0.75, 1.25, 2.0, 3.0)
 
@@ -66,10 +84,11 @@ class Places:
         settings = [
             Setting(model=model, resolution=resolution if model.outside else None, scheme=scheme)
             for model in here
+            if model.applies(scene_at(self.reynolds_numbers[0], self.depths_plus[0], self.entries)).applies
             for scheme in model.schemes or (None,)
         ]
         places = [(number, depth) for depth in reversed(self.depths_plus) for number in self.reynolds_numbers]
-        scenes = {at: scene_at(*at) for at in places}
+        scenes = {at: scene_at(*at, self.entries) for at in places}
         jobs = {
             (setting, at): Job(
                 scene=scene, setting=setting, path=out / "runs" / f"Re{at[0]:g}-d{at[1]:g}" / f"{setting.name}.h5"
@@ -160,4 +179,16 @@ POCKET = StabilityMap(
     resolution_meaning="mesh columns of the OpenFOAM models",
     solve=Places().solve,
     summary=summary,
+)
+
+DIMPLES = replace(
+    POCKET,
+    name="dimple",
+    title="A dimple under a sliding wall",
+    axes="A spherical dimple 500 µm wide in a square cell of 1000 µm under a film of 30 µm: Re = ρ u Ly/η (columns) "
+    "and depth d+ = d/Ly (rows), by every model with every scheme; OpenFOAM with {resolution} mesh columns along the "
+    f"cell, the other models at their default resolution. Above Re = {TURBULENT:g} shear flow turns turbulent, and "
+    "every model takes it as laminar.",
+    resolution=32,
+    solve=Places(entries=DIMPLE).solve,
 )

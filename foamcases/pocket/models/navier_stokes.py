@@ -3,7 +3,6 @@
 from roughfilm.foamcases.openfoam.model import openfoam_model
 from roughfilm.foamcases.pocket.model import CASES, SOURCES
 from roughfilm.rom.ladder.model import Applicability, Effect
-from roughfilm.rom.pocket.model import not_in_plan
 from roughfilm.rom.pocket.scene import Pocket
 
 
@@ -20,7 +19,7 @@ MODEL = openfoam_model(
     summary="adds slope and inertia in full: the most complete model",
     keeps=frozenset({Effect.SLOPE, Effect.INERTIA}),
     sources=SOURCES,
-    applies=not_in_plan(applies),
+    applies=applies,
     reynolds_number=lambda scene: scene.reynolds_number,
     schemes=("linear_upwind", "upwind"),
 )

@@ -3,7 +3,6 @@
 from roughfilm.foamcases.openfoam.model import creeping, openfoam_model
 from roughfilm.foamcases.pocket.model import CASES, SOURCES
 from roughfilm.rom.ladder.model import Applicability, Effect
-from roughfilm.rom.pocket.model import not_in_plan
 from roughfilm.rom.pocket.scene import Pocket
 
 
@@ -18,6 +17,6 @@ MODEL = openfoam_model(
     summary="adds slope: the whole film resolved, inertia negligible",
     keeps=frozenset({Effect.SLOPE}),
     sources=SOURCES,
-    applies=not_in_plan(applies),
+    applies=applies,
     reynolds_number=creeping,
 )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.timing import working_time
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.quantities import EXACT
@@ -53,14 +53,9 @@ def solve(solver: Model[Bearing], scene: Bearing, request: CheckedRequest, progr
 
     Raises
     ------
-    InputError
-        If the model does not apply to the scene.
     ConvergenceError
         If Newton's method does not converge on the finest grid.
     """
-    fits = solver.applies(scene)
-    if not fits.applies:
-        raise InputError(f"model: got {solver.name!r}; {fits.reason}")
     wall, cpu = time.perf_counter(), working_time()
     levels: list[_Level] = []
     for cells in sorted({max(MIN_CELLS, round(part * request.resolution)) for part in GRIDS}):

@@ -37,6 +37,23 @@ class Drag:
 
 def drag_of_rows(solution: Solution) -> Drag:
     """The friction of the liquid, row by row."""
+    grid, rough = solution.grid, solution.faces.averaged
+    along = (grid.volume_y * _pull(solution)).sum(axis=0)
+    if rough is None or grid.shape[1] == 1:
+        return Drag(rows=along, between=np.zeros(grid.shape[1] - 1))
+    climb = solution.state.pressure[:, 1:] - solution.state.pressure[:, :-1]
+    across = grid.volume_x[:, None] * radius_between(grid) * rough.drag_across[:, :-1] / 2 * climb
+    return Drag(rows=along, between=across.sum(axis=0))
+
+
+def wall_stress(solution: Solution) -> Array:
+    """The stress on the sliding wall against its motion at the faces towards i + 1, Pa; 0 behind the last node."""
+    pull, lengths = _pull(solution), solution.grid.spacing_x[:, None] * solution.grid.radius
+    return np.divide(pull, lengths, out=np.zeros_like(pull), where=lengths > 0)
+
+
+def _pull(solution: Solution) -> Array:
+    """The force per width on the sliding wall between the nodes of each face towards i + 1, N/m, shape (nx, ny)."""
     grid, mean, problem = solution.grid, solution.faces.mean, solution.problem
     fluidity = problem.piezoviscosity.fluidity(solution.state.pressure, problem.viscosity)[0]
     stretch = grid.spacing_x[:, None] * grid.radius
@@ -50,12 +67,7 @@ def drag_of_rows(solution: Solution) -> Drag:
         shear = np.where(mean > 0, problem.viscosity * speed * gradient, 0.0)
     shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
     rise = np.roll(solution.state.pressure, -1, axis=0) - solution.state.pressure
-    along = (grid.volume_y * (shear * stretch + mean / 2 * rise)).sum(axis=0)
-    if rough is None or grid.shape[1] == 1:
-        return Drag(rows=along, between=np.zeros(grid.shape[1] - 1))
-    climb = solution.state.pressure[:, 1:] - solution.state.pressure[:, :-1]
-    across = grid.volume_x[:, None] * radius_between(grid) * rough.drag_across[:, :-1] / 2 * climb
-    return Drag(rows=along, between=across.sum(axis=0))
+    return np.asarray(shear * stretch + mean / 2 * rise)
 
 
 def _shear_factor(solution: Solution, rough: Averaged, fill: Array) -> Array:

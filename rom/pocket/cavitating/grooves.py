@@ -15,6 +15,7 @@ from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.result import Field
 from roughfilm.rom.pocket import closed_form as film_flow
+from roughfilm.rom.pocket.cavitating.cavities import cavity_quantities
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 
 
@@ -33,11 +34,7 @@ def groove_problem(scene: Pocket) -> Problem:
 
 
 def groove_quantities(scene: Pocket, solution: Solution) -> dict[str, Quantity]:
-    """The quantities of a pocket over grooves, and those of its cavities; pressures count from ambient.
-
-    ``cavitated_fraction`` is the fraction of the period in which the film is ruptured, ``theta_min`` the least fraction
-    of the gap that is full.
-    """
+    """The quantities of a pocket over grooves and those of its cavities; pressures count from ambient."""
     areas, cavity = solution.grid.areas, solution.kind == CAVITY
     pressure = solution.state.pressure + scene.cavitation_pressure
     pascal, film = scene.pressure_unit, scene.geometry.film
@@ -51,8 +48,7 @@ def groove_quantities(scene: Pocket, solution: Solution) -> dict[str, Quantity]:
             pressure_min=float(pressure.min()) / pascal,
             backflow=film_flow.back_flow(thickness, _flow(scene, solution)),
         ),
-        "cavitated_fraction": Quantity(value=float(areas[cavity].sum() / areas.sum()), unit="1"),
-        "theta_min": Quantity(value=float(density_ratio(solution).min()), unit="1"),
+        **cavity_quantities(solution),
     }
 
 

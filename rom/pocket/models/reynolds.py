@@ -13,7 +13,7 @@ def applies(scene: Pocket) -> Applicability:
 
 MODEL = quadrature_model(
     name="reynolds",
-    summary="Reynolds equation by exact quadrature: the simplest film",
+    summary="Reynolds equation: the simplest film",
     keeps=frozenset(),
     sources=("10.1098/rstl.1886.0005",),
     applies=applies,

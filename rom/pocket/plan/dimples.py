@@ -211,7 +211,7 @@ class _Flat(_Turned):
 
     Attributes
     ----------
-    width : extent along the sliding direction before rotation, m; of each arm of a chevron.
+    width : extent along the sliding direction before rotation, m.
     breadth : extent across the sliding direction before rotation, m.
     depth : greatest depth, m.
     edge : width of the ramp between the rim and the floor, m; a vertical wall has no thin film.
@@ -274,6 +274,7 @@ class Chevron(_Flat):
     Attributes
     ----------
     shape : "chevron".
+    width : width of each arm along the sliding direction before rotation, m.
     angle : angle of the arms to the direction across the sliding, at most 80 degrees.
     """
 

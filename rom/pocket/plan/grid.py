@@ -47,8 +47,8 @@ class PlanGrid:
         return self.lattice[::PARTS, ::PARTS]
 
 
-def column_counts(plan: Plan, resolution: int) -> tuple[int, int]:
-    """The numbers of columns along and across: ``resolution`` along the cell, and as many across per length.
+def columns_across(plan: Plan, resolution: int) -> int:
+    """The number of columns across a cell with ``resolution`` columns along it: as many per length.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def column_counts(plan: Plan, resolution: int) -> tuple[int, int]:
             f"resolution: {resolution} columns along a cell of {plan.length:.4g} x {plan.breadth:.4g} m need {across} "
             f"across it, in all more than {MAX_COLUMNS}; take a lower resolution, or a part of the cell as its period"
         )
-    return resolution, across
+    return across
 
 
 def plan_grid(plan: Plan, counts: tuple[int, int]) -> PlanGrid:

@@ -22,6 +22,8 @@ class OnSlidingWall:
     thickness : film thickness at the middles of the columns, shape (nx, ny).
     pressure : pressure, up to a constant, shape (nx, ny).
     shear_stress : shear stress along the sliding direction, shape (nx, ny).
+    on_edge : pressure along the edge x = ±length/2, shape (ny,), of solvers that have it; None if it follows from the
+        columns beside the edge.
     """
 
     x: Array
@@ -29,6 +31,7 @@ class OnSlidingWall:
     thickness: Array
     pressure: Array
     shear_stress: Array
+    on_edge: Array | None = None
 
     @property
     def middles(self) -> tuple[Array, Array]:
@@ -43,6 +46,8 @@ class OnSlidingWall:
     @property
     def edge(self) -> Array:
         """The pressure along the periodic edge x = ±length/2, between the middles of the columns beside it, (ny,)."""
+        if self.on_edge is not None:
+            return self.on_edge
         first, last = np.diff(self.x)[[0, -1]]
         return np.asarray((self.pressure[0] * last + self.pressure[-1] * first) / (first + last))
 

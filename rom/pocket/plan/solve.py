@@ -12,7 +12,7 @@ from roughfilm.rom.ladder.model import Effect, Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import NO_COARSER_GRID, Numerics, Result, with_uncertainties
-from roughfilm.rom.pocket.plan.grid import column_counts, plan_grid
+from roughfilm.rom.pocket.plan.grid import columns_across, plan_grid
 from roughfilm.rom.pocket.plan.inertia import inertia
 from roughfilm.rom.pocket.plan.plan import Plan
 from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
@@ -92,7 +92,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     """
     wall, cpu = time.perf_counter(), working_time()
     plan = scene.plan()
-    counts = column_counts(plan, request.resolution)
+    counts = request.resolution, columns_across(plan, request.resolution)
     progress(0.0, f"{counts[0]} x {counts[1]} columns")
     levels = levels_of(plan, counts, scene.reynolds_number if Effect.INERTIA in solver.keeps else 0.0)
     finest = levels[0]

@@ -93,8 +93,10 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     yield table
     yield from (f"{one.model}: {one.verdict}: {one.why}" for one in advice.considered)
     yield from (f"  {line}" for line in kind.composed(scene))
-    if advice.omitted is not None:
-        yield f"all of them: {advice.omitted.reason}"
+    applying = [one for one in advice.considered if one.verdict is not Verdict.DOES_NOT_APPLY]
+    for reason in dict.fromkeys(omission.reason for omission in advice.omitted.values()):
+        names = [name for name, omission in advice.omitted.items() if omission.reason == reason]
+        yield f"{'all of them' if len(names) == len(applying) else ', '.join(names)}: {reason}"
     if note := window_note(scene, advice.within):
         yield note
     numbers = [f"{kind.symbols[name]} = {value:.3g}" for name, value in advice.numbers.items() if name in kind.symbols]
@@ -138,7 +140,7 @@ def entries_of(advice: Advice) -> dict[str, Any]:
         "nearest": advice.nearest.model if advice.nearest else None,
         "finer": {"model": advice.finer.model, "resolution": advice.finer.resolution} if advice.finer else None,
         "reasons": [f"{one.model}: {one.verdict}: {one.why}" for one in advice.considered],
-        "omitted": {**asdict(advice.omitted), "part": finite(advice.omitted.part)} if advice.omitted else None,
+        "omitted": {name: {**asdict(one), "part": finite(one.part)} for name, one in advice.omitted.items()},
         "considered": [_entries(one) for one in advice.considered],
         "numbers": {name: finite(value) for name, value in advice.numbers.items()},
         "spent_cpu_s": advice.spent_cpu_s,

@@ -31,6 +31,10 @@ TYPICAL_CPU_S = {
         "homogenized": 0.3,
         "mixed": 0.4,
         "direct": 1.3,
+        "film": 0.06,
+        "film_slope": 0.06,
+        "stokes": 2.5,
+        "navier_stokes": 3,
     },
     "dry_contact": {
         "bearing_area": 0.001,

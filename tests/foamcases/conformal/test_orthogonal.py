@@ -6,7 +6,7 @@ import pytest
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.conformal import harmonic, laplace
 from roughfilm.foamcases.conformal.cells import centres, convex
-from roughfilm.foamcases.conformal.orthogonal import orthogonal
+from roughfilm.foamcases.conformal.orthogonal import between_ends, orthogonal
 from roughfilm.foamcases.conformal.wall import wall_of
 from roughfilm.rom.pocket.groove import channel, cylindrical, splined
 from roughfilm.rom.thin_film.gap import Gap
@@ -206,3 +206,35 @@ def test_steep_walls_have_as_many_points_as_flat_ones():
     assert wall.length == pytest.approx(30 - 4 + 3.96 + 2 * np.hypot(0.02, 2))
     turned = wall.points(np.array([1.0, 1.0 + wall.length]))
     assert turned[1] - turned[0] == pytest.approx([30, 0])
+
+
+def linear_pad(length, rise, pocket=0.0):
+    """A pad of film 1 from 0 to ``length`` that narrows by ``rise``, with a parabolic pocket in its middle."""
+
+    def thickness(x):
+        pocketed = np.maximum(0.0, 1 - ((x / length - 0.5) / 0.2) ** 2)
+        return 1 + rise * (1 - x / length) + pocket * pocketed
+
+    corners = (0.3 * length, 0.7 * length) if pocket else ()
+    return Gap(film=1.0, breaks=(0.0, *corners, length), corners=corners, thickness=thickness)
+
+
+@pytest.mark.parametrize("gap", [linear_pad(5.0, 1.0), linear_pad(30.0, 0.0, 2.0), linear_pad(3000.0, 1.0, 1.0)])
+def test_a_gap_with_ends_begins_and_ends_with_vertical_columns(gap):
+    vertices = between_ends(gap, 60, 12)
+    assert convex(vertices).all()
+    lower, upper = vertices[:, 0], vertices[:, -1]
+    assert np.all(vertices[0, :, 0] == 0)
+    assert np.all(vertices[-1, :, 0] == gap.length)
+    assert lower[:, 1] == pytest.approx(1 - gap.thickness(lower[:, 0]), abs=1e-9)
+    assert np.all(upper[:, 1] == 1)
+    assert [np.abs(lower[:, 0] - corner).min() for corner in gap.corners] == pytest.approx([0.0] * len(gap.corners))
+    assert abs(vertices.shape[0] - 1 - 60) <= 4
+
+
+def test_columns_of_a_wedge_are_arcs_about_its_apex():
+    """The conformal map of a wedge is the logarithm: columns are arcs, away from ends, which are vertical."""
+    gap = linear_pad(12.0, 1.2)
+    vertices = between_ends(gap, 60, 12)[25:35]
+    radius = np.hypot(vertices[..., 0] - 22.0, vertices[..., 1] - 1.0)
+    assert np.ptp(radius, axis=1).max() < 1e-3

@@ -17,7 +17,7 @@ from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.dialect import COM, ORG, Release, dialect_named, release_in
 from roughfilm.foamcases.openfoam.dictionaries import solution
 from roughfilm.foamcases.openfoam.installation import Installation, dialect_here, environment
-from roughfilm.foamcases.pocket.case import Card
+from roughfilm.foamcases.pocket.card import Card
 from roughfilm.foamcases.pocket.models.navier_stokes import MODEL as POCKET
 from roughfilm.foamcases.pocket.run import run_case
 from roughfilm.foamcases.rough_gap.models.navier_stokes import MODEL as GAP

@@ -9,7 +9,7 @@ from foamlib import FoamFile
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.openfoam.case_directory import read_card
-from roughfilm.foamcases.pocket.case import Card
+from roughfilm.foamcases.pocket.card import Card
 from roughfilm.foamcases.pocket.models.navier_stokes import MODEL as NAVIER_STOKES
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries

@@ -6,7 +6,7 @@ import pytest
 from roughfilm import foamcases, rom
 from roughfilm.figures.streamlines import stream_function
 from roughfilm.foamcases.conformal.cells import centres
-from roughfilm.foamcases.pocket import case
+from roughfilm.foamcases.pocket import card
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.model import ladder, of_kind
 from roughfilm.rom.ladder.request import Request
@@ -196,7 +196,7 @@ def test_grids_of_different_aspect_ratio_agree(make_scene, monkeypatch, ratio, c
 
     The finite elements above are met at the usual ratio, 0.2.
     """
-    monkeypatch.setattr(case, "LAYERS_PER_COLUMN", ratio)
+    monkeypatch.setattr(card, "LAYERS_PER_COLUMN", ratio)
     *groove, load = STEEP[0]
     scene = steep_scene(make_scene, *groove)
     coarse, fine = (plus(NAVIER_STOKES.solve(scene, Request(resolution=n)))[0] for n in (columns, 2 * columns))

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from roughfilm.foamcases.openfoam.block_mesh import write_block
-from roughfilm.foamcases.openfoam.dictionaries import control, schemes, write_files
+from roughfilm.foamcases.openfoam.dictionaries import control, parts_of, schemes, write_files
 from roughfilm.foamcases.openfoam.program import succeed
 from roughfilm.foamcases.rough_gap.case import GapCard
-from roughfilm.foamcases.rough_gap.dictionaries import CONTACT, SIDES, parts_of
+from roughfilm.foamcases.rough_gap.dictionaries import CONTACT, SIDES
 from roughfilm.foamcases.rough_gap.mesh import columns_between
 from roughfilm.rom.homogenization.paths import leads_round
 from roughfilm.rom.rough_gap.walls import Walls

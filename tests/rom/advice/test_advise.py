@@ -409,7 +409,7 @@ def test_steep_fast_grooves_need_more_than_shallow_slow_ones(make_scene):
     assert steep.chosen is None or steep.chosen.cpu_s > shallow.chosen.cpu_s
 
 
-def test_inertia_that_no_model_of_a_bearing_includes_is_that_of_a_wide_wedge_to_first_order():
+def test_inertia_that_no_model_of_a_bearing_includes_is_that_of_first_order():
     """Half the density, half the part: to first order; without a density nothing is said."""
     entries = {
         "name": "wedge",

@@ -1,9 +1,11 @@
 """The contract that every rung keeps, and the lattice they form."""
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
+from places import SCENES
 
 from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
@@ -12,6 +14,7 @@ from roughfilm.rom.ladder.kind import kinds
 from roughfilm.rom.ladder.model import Effect, best, find, ladder, of_kind, one_effect_away
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Field, SolverRun
+from roughfilm.rom.ladder.scene import load_scene
 
 ALL = ladder(rom, foamcases)
 MODELS = of_kind(ALL, "pocket")
@@ -71,9 +74,9 @@ def test_an_unknown_name_is_refused_with_the_known_ones():
 def test_contract(model, make_scene):
     scene = make_scene(0.3, 0.25, 20)
     seen = []
-    result = model.solve(
-        scene, Request(resolution=model.resolutions.series[1]), progress=lambda done, words: seen.append((done, words))
-    )
+    resolution = model.resolutions_of(scene)[1]
+    request = Request(resolution=resolution)
+    result = model.solve(scene, request, progress=lambda done, words: seen.append((done, words)))
     assert result.model == model.name
     assert set(result.quantities) == {
         "load_plus",
@@ -90,7 +93,7 @@ def test_contract(model, make_scene):
     numbers = result.numerics
     assert np.isfinite(numbers.residual)
     assert min(numbers.cpu_s, numbers.wall_s, numbers.degrees_of_freedom, numbers.iterations) > 0
-    assert numbers.resolution == model.resolutions.series[1]
+    assert numbers.resolution == resolution
     assert numbers.scheme == (model.schemes[0] if model.schemes else "")
     assert result.provenance["keeps"] == sorted(model.keeps)
     assert result.provenance["sources"] == list(model.sources)
@@ -112,9 +115,10 @@ def test_choices_that_a_model_does_not_offer_are_refused(model, make_scene):
             model.solve(make_scene(0.3, 0.25, 20), Request(processes=2))
 
 
-def test_resolutions_are_sorted_and_hold_the_default():
-    for model in MODELS:
-        offered = model.resolutions
+def test_resolutions_are_sorted_and_hold_the_default(make_scene):
+    scenes = (make_scene(0.3, 0.25, 20), load_scene(SCENES / "dimple.toml"))
+    for model, scene in product(MODELS, scenes):
+        offered = model.offered(scene)
         assert list(offered.series) == sorted(set(offered.series))
         assert offered.default in offered.series
         assert offered.least <= offered.series[0] <= offered.series[-1] <= offered.most

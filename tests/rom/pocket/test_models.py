@@ -166,7 +166,7 @@ def test_random_grooves_give_finite_numbers_in_bounds_or_one_of_our_errors(film,
     smooth = scene.plus_factor
     for model in MODELS:
         try:
-            result = model.solve(scene, Request(resolution=model.resolutions.series[0] if model.order else None))
+            result = model.solve(scene, Request(resolution=model.resolutions_of(scene)[0] if model.order else None))
             load, friction, highest, lowest = plus(result)
         except ConvergenceError:
             continue

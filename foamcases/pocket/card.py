@@ -1,0 +1,71 @@
+"""The card of a pocket's case: the options with which it was written, which are needed to run it and read it back."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from roughfilm.foamcases.openfoam.iterate import Settled
+from roughfilm.foamcases.openfoam.relaxation import velocity_relaxation
+from roughfilm.foamcases.openfoam.residuals import FIELDS, Judged
+from roughfilm.foamcases.openfoam.settling import settled_within
+
+LAYERS_PER_COLUMN = 1 / 5
+"""Number of cells across the film over the number along it."""
+
+MIN_LAYERS = 4
+
+UNRELAXED_LAYERS = 2.0
+"""Product of the number of layers and 1 less the relaxation, at which runs of a cell in plan need the fewest."""
+
+MIN_PLAN_RELAXATION = 0.7
+"""Least relaxation of velocity in a cell in plan."""
+
+
+def layers_of(resolution: int) -> int:
+    """The number of layers of a mesh with so many columns along the film."""
+    return max(MIN_LAYERS, round(resolution * LAYERS_PER_COLUMN))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Card:
+    """The options with which a case was written.
+
+    Attributes
+    ----------
+    columns, layers : numbers of cells along and across the film.
+    rows : number of rows of cells across a cell in plan, those left out by symmetry among them; 0 for grooves.
+    mirrored : whether only the half y > 0 of a cell in plan is solved.
+    judged : the entries of ``FIELDS`` that are not constant.
+    """
+
+    columns: int
+    layers: int
+    reynolds_number: float
+    resolution: int
+    tolerance: float
+    scheme: str
+    processes: int
+    dialect: str
+    rows: int = field(default=0, metadata={"may_be_zero": True})
+    mirrored: bool = field(default=False, metadata={"may_be_zero": True})
+    judged: tuple[str, ...] = FIELDS
+
+    @property
+    def relaxation(self) -> float:
+        """The relaxation of velocity in SIMPLEC, which is nearer to 1 for smaller cells."""
+        if self.rows:
+            return max(MIN_PLAN_RELAXATION, 1 - UNRELAXED_LAYERS / self.layers)
+        return velocity_relaxation(self.columns)
+
+    @property
+    def criteria(self) -> Judged:
+        """The criteria of convergence."""
+        return Judged(fields=self.judged)
+
+    @property
+    def settles(self) -> bool:
+        """Whether the run ends by its mean velocity, since residuals of constant fields are round-off."""
+        return self.judged != FIELDS
+
+    def settled(self, directory: Path) -> Settled | None:
+        """The test that ends the run of the case in a directory; None if residuals end it."""
+        return settled_within(self.tolerance, directory, self.criteria) if self.settles else None

@@ -1,0 +1,1 @@
+"""OpenFOAM cases of one periodic cell of a film over dimples."""

@@ -1,0 +1,86 @@
+"""Find the best dimple for load by each model, and the load that is lost by choosing with a cheap one.
+
+python -m scripts.studies.dimples DIR --out OUT, where DIR holds the finished batch of
+scripts/examples/studies/dimples.toml.
+"""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from rich.table import Table
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.studies.sweep import read_sweep
+from roughfilm.rom.studies.table import read_table
+from roughfilm.terminal.console import AsJson, in_one_line, run_alone
+from scripts.studies.dimples import figures
+from scripts.studies.dimples.data import FAMILIES, MIN_LOAD, REFERENCE, Dimples, dimples_of
+from scripts.studies.study import Out, publish
+
+
+@in_one_line
+def command(
+    directory: Annotated[Path, typer.Argument(metavar="DIR", help="Directory of the finished batch of dimples.toml.")],
+    out: Out,
+    as_json: AsJson = False,
+) -> None:
+    """Compare the dimples that each model finds best, and the errors of the loads."""
+    dimples = dimples_of(read_sweep(read_table(directory / "table.h5"), "pocket"))
+    if REFERENCE not in dimples.settings:
+        raise InputError(f"{directory}: lacks results of {REFERENCE}; run dimples.toml there with OpenFOAM")
+    choices = {
+        number: [
+            (family, model, choice)
+            for family in FAMILIES
+            for model in dimples.settings
+            if (choice := dimples.choice(family, number, model)) is not None
+        ]
+        for number in dimples.numbers
+    }
+    rows = [row for model in dimples.settings if model != REFERENCE and (row := error_row(dimples, model))]
+    publish(
+        Path(__file__).parent,
+        out,
+        {
+            "losses": figures.losses(dimples),
+            **{f"loads at Re {number:g}": figures.loads(dimples, number) for number in dimples.numbers},
+        },
+        {"choices": choices, "errors": rows},
+        tables=[printed(rows)],
+        as_json=as_json,
+        choices=choices,
+        errors=rows,
+        cases=len(dimples.sweep.names),
+        min_load=MIN_LOAD,
+    )
+
+
+def error_row(dimples: Dimples, model: str) -> dict[str, Any] | None:
+    """The errors of the load by a model, with its CPU time; None without a case to judge."""
+    errors = dimples.errors(model)
+    if not errors.size:
+        return None
+    return {
+        "model": model,
+        "cpu_s": float(np.nanmedian(dimples.sweep.cpu_s[dimples.settings[model]])),
+        "median": float(np.median(errors)),
+        "most": float(np.quantile(errors, 0.95)),
+        "worst": float(errors.max()),
+        "cells": int(errors.size),
+    }
+
+
+def printed(rows: list[dict[str, Any]]) -> Table:
+    """The errors as a printed table."""
+    shown = Table("model", "CPU", "load error, median", "95 %", "largest")
+    for row in rows:
+        shown.add_row(
+            row["model"], f"{row['cpu_s']:.2g} s", *(f"{100 * row[name]:.2g} %" for name in ("median", "most", "worst"))
+        )
+    return shown
+
+
+if __name__ == "__main__":
+    run_alone(command)
