@@ -18,7 +18,7 @@ from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
 from roughfilm.rom.pocket.plan.dimples import SHAPES
 from roughfilm.rom.pocket.plan.geometry import PlanGeometry
-from roughfilm.rom.pocket.scene import GROOVES, IN_PLAN, TITLES, Pocket
+from roughfilm.rom.pocket.scene import GROOVES, IN_PLAN, LAWS_IN_PLAN, TITLES, Pocket, in_plan
 from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
 
 COMPARED = ("load_plus", "friction_plus")
@@ -212,6 +212,7 @@ KIND = Kind(
     omitted=omitted,
     missing=missing,
     outside_laws=outside_laws,
+    variants={LAWS_IN_PLAN: in_plan},
     files=frozenset({"points"}),
     replaces={
         "motion.speed": ("reynolds_number",),
