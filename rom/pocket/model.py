@@ -29,6 +29,9 @@ FILM_RESIDUAL_TOLERANCE = 1e-11
 SCHEMES = ("linear_upwind", "upwind")
 """Advection schemes, the default first."""
 
+FILM_PLAN_COLUMNS = Resolutions(least=16, most=256, default=64, series=(32, 64, 128))
+"""Numbers of columns along a cell in plan of the thin-film equations."""
+
 FILM_RESOLUTION_MEANING = "cells along the film, each with 10 polynomials across it"
 FILM_RESIDUAL_MEANING = "largest imbalance of momentum in a cell, relative to the largest force in one"
 
@@ -90,22 +93,33 @@ def not_in_plan(applies: Callable[[Pocket], Applicability]) -> Callable[[Pocket]
     return applies_to
 
 
+def film_cost(scene: Pocket, resolution: int) -> float:
+    """Expected CPU seconds of the thin-film equations."""
+    if not scene.in_plan:
+        return 2.5e-3 + 5.7e-5 * resolution
+    plan = scene.plan()
+    return float(1e-4 * resolution**2 * plan.breadth / plan.length)
+
+
 def film_model(*, applies: Callable[[Pocket], Applicability], **about: Unpack[About]) -> Model[Pocket]:
-    """A model that solves the thin-film equations; the cost was measured for 50 to 800 cells."""
+    """A model that solves the thin-film equations.
+
+    The cost was measured for 50 to 800 cells over grooves, and for 32 to 128 columns of square cells in plan.
+    """
     grooves = Resolutions(least=MIN_CELLS, most=MAX_CELLS, default=DEFAULT_CELLS, series=CELL_SERIES)
     return Model(
         **about,
         kind="pocket",
-        resolutions=grooves,
-        resolution_meaning=FILM_RESOLUTION_MEANING,
+        resolutions=in_plan_or_not(grooves, FILM_PLAN_COLUMNS),
+        resolution_meaning=f"{FILM_RESOLUTION_MEANING}; {PLAN_RESOLUTION_MEANING}",
         residual_meaning=FILM_RESIDUAL_MEANING,
         order=2,
         tolerance=FILM_RESIDUAL_TOLERANCE,
         tolerances=(1e-14, 1.0),
         schemes=SCHEMES,
-        cost=lambda _scene, resolution: 2.5e-3 + 5.7e-5 * resolution,
-        applies=not_in_plan(applies),
-        compute=deferred("rom.pocket.solve", "solve"),
+        cost=film_cost,
+        applies=applies,
+        compute=computed(grooves="rom.pocket.solve", plan="rom.pocket.plan.film.solve"),
     )
 
 
