@@ -66,6 +66,11 @@ def within_laws(_scene: Any, _result: Any, _quantity: str) -> str:
     return ""
 
 
+def always_lawful(_entries: Mapping[str, Any]) -> bool:
+    """Return True, for kinds whose error laws hold for all their scenes."""
+    return True
+
+
 def nothing_composed(_scene: Any) -> tuple[str, ...]:
     """Return no lines, for kinds whose scenes are not composed of effects."""
     return ()
@@ -112,6 +117,7 @@ class Kind:
     compared_with : the compared quantities of scenes that have a table, by the name of the table; the error laws do not
         hold for these scenes.
     lawful : whether the error laws hold; False for the kind of a scene with such a table.
+    lawful_for : lawful_for(entries), whether the error laws hold for a scene without such a table.
     ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
@@ -149,6 +155,7 @@ class Kind:
     remarks: Callable[[Mapping[str, Any], Mapping[str, Quantity]], Sequence[str]] = nothing_remarked
     compared_with: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     lawful: bool = True
+    lawful_for: Callable[[Mapping[str, Any]], bool] = always_lawful
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
@@ -174,8 +181,9 @@ class Kind:
         width is left out where that of the whole width is there. Quantities without a title have their name as the
         title, and come last.
         """
-        own = self.of(result.provenance["scene"])
-        first = () if own is self else tuple(own.compared)[:1]
+        entries = result.provenance["scene"]
+        seeks = any(entries.get(table) is not None for table in self.compared_with)
+        first = tuple(self.of(entries).compared)[:1] if seeks else ()
         names, whole = result.quantities, {f"{name}_per_width" for name in result.quantities}
         ordered = dict.fromkeys((*first, *self.reported, *names))
         return {name: self.reported.get(name, name) for name in ordered if name in names and name not in whole}
@@ -185,7 +193,7 @@ class Kind:
         for table, compared in self.compared_with.items():
             if entries.get(table) is not None:
                 return self._comparing(compared)
-        return self
+        return self if self.lawful_for(entries) else replace(self, lawful=False)
 
     def seeking(self, quantity: str) -> "Kind":
         """The kind of scenes that ask for a quantity by a table of their own, such as the film under a load."""

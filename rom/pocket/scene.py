@@ -58,7 +58,7 @@ GROOVES, IN_PLAN = "grooves", "plan"
 """Tags of the two geometries of a pocket, which are no keys of a scene file."""
 
 
-def _geometry_of(entries: Any) -> str:
+def geometry_tag(entries: Any) -> str:
     """The tag of a geometry: a cell in plan has a breadth and dimples."""
     if isinstance(entries, dict):
         return IN_PLAN if {"breadth", "dimples", "arrangement"} & entries.keys() else GROOVES
@@ -66,7 +66,7 @@ def _geometry_of(entries: Any) -> str:
 
 
 AnyGeometry = Annotated[
-    Annotated[PocketGeometry, Tag(GROOVES)] | Annotated[PlanGeometry, Tag(IN_PLAN)], Discriminator(_geometry_of)
+    Annotated[PocketGeometry, Tag(GROOVES)] | Annotated[PlanGeometry, Tag(IN_PLAN)], Discriminator(geometry_tag)
 ]
 
 

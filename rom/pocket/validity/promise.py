@@ -6,7 +6,12 @@ from roughfilm.rom.pocket.validity.numbers import SYMBOLS, numbers
 
 
 def promise_warnings(scene: Pocket, model: str) -> tuple[str, ...]:
-    """The warning where a number of a scene is outside the range to which the laws of a model were fitted."""
+    """The warning where a number of a scene is outside the range to which the laws of a model were fitted.
+
+    The laws are those of grooves: there is no warning for a cell in plan.
+    """
+    if scene.in_plan:
+        return ()
     own = numbers(scene)
     for law in table().promise("pocket", model).laws.values():
         if (name := law.beyond(own)) is not None:
