@@ -51,7 +51,7 @@ class ModelVerdict:
     verdict, reason : the verdict and the reason for it, without a number for the error.
     a_priori : estimate of the error by the laws; None if unknown.
     a_posteriori : estimate of the error from runs; None if the models were not run.
-    omitted : part of the effect that the model leaves out and that the laws do not count, which adds to the error.
+    omitted : the effect that the model leaves out and that the laws do not count, whose part adds to the error.
     """
 
     model: str
@@ -61,7 +61,7 @@ class ModelVerdict:
     reason: str
     a_priori: Estimate | None = None
     a_posteriori: Estimate | None = None
-    omitted: float = 0.0
+    omitted: Omission | None = None
 
     @property
     def estimate(self) -> Estimate | None:
@@ -76,7 +76,7 @@ class ModelVerdict:
     @property
     def error(self) -> float | None:
         """The largest expected error over the size of the quantity; None if unknown."""
-        return None if self.estimate is None else self.estimate.error + self.omitted
+        return None if self.estimate is None else self.estimate.error + (self.omitted.part if self.omitted else 0.0)
 
     @property
     def why(self) -> str:
@@ -351,7 +351,7 @@ def _as_verdict(
         reason=reason,
         a_priori=before,
         a_posteriori=after,
-        omitted=task.part_omitted(model),
+        omitted=task.omitted.get(model.name),
     )
 
 
