@@ -151,7 +151,7 @@ def outside_laws(scene: Pocket, result: Result, quantity: str) -> str:
     """The reason for which the laws of the load do not hold for a film whose effects cancel in it; empty if they do."""
     from roughfilm.rom.pocket.validity.warnings import cancellations
 
-    if quantity != "load_plus" or result.model not in FULL_INERTIA:
+    if scene.in_plan or quantity != "load_plus" or result.model not in FULL_INERTIA:
         return ""
     load, lowest, highest = (result.quantities[name].value for name in ("load_plus", *EXTREMES))
     return next(iter(cancellations(scene, load=load, lowest=lowest, highest=highest)), "")

@@ -6,7 +6,14 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.pocket.plan.balance import Balance, outflow
-from roughfilm.rom.pocket.plan.grid import PARTS, PlanGrid, between_middles, places_between, running_means, within_columns
+from roughfilm.rom.pocket.plan.grid import (
+    PARTS,
+    PlanGrid,
+    between_middles,
+    places_between,
+    running_means,
+    within_columns,
+)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,6 +18,7 @@ from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.promise import promise_warnings
 from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 
+
 def uncertainties(levels: list[Level], scene: Pocket) -> dict[str, float]:
     """The uncertainty of each quantity of the finest level from the coarser ones; empty without any."""
     if len(levels) == 1:

@@ -75,9 +75,7 @@ def dimple(rng: Generator, room: float, film: float) -> Entries:
     found: Entries = {"shape": shape, "width": length(width), "depth": length(depth)}
     if shape in ("ellipsoidal", "box", "chevron", "points"):
         found["breadth"] = length(breadth)
-    if shape in ("box", "chevron"):
-        found["edge"] = length(edge)
-    elif shape in ("spherical", "ellipsoidal", "conical") and chance(rng, 0.3):
+    if shape in ("box", "chevron") or (shape in ("spherical", "ellipsoidal", "conical") and chance(rng, 0.3)):
         found["edge"] = length(edge)
     if shape == "chevron":
         found["angle"] = f"{math.degrees(tip):.9g} deg"
