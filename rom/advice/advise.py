@@ -1,5 +1,6 @@
 """Choice of the cheapest model that is accurate enough, by fitted error laws and by comparison with other models."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -229,11 +230,11 @@ def advise(
         models=[model for model in models if fits[model.name].applies],
         quantity=quantity,
         title=kind.titles[quantity],
-        table=lawful(laws or table(), kind.name, holds=kind.lawful),
+        table=lawful(laws or table(), kind.name_of_laws, holds=kind.lawful),
         numbers=kind.numbers(scene),
         run=solved,
         failed=failed,
-        omitted=kind.omitted(scene, [model for model in models if fits[model.name].applies], quantity),
+        omitted=_omitted(scene, [model for model in models if fits[model.name].applies], quantity),
         within=within,
     )
     if not task.models:
@@ -247,7 +248,7 @@ def advise(
     chosen = next((one for one in judged if one.verdict is Verdict.CHOSEN), None)
     here = {model.name for model in task.models if model.available().available}
     candidates = [one for one in judged if one.verdict is Verdict.NOT_ENOUGH and one.model in here]
-    short = [one for one in candidates if one.error is not None]
+    short = [one for one in candidates if one.error is not None and math.isfinite(one.error)]
     nearest = None if chosen else min(short, key=lambda one: (not one.sure, one.error or 0.0), default=None)
     sure = nearest if nearest is not None and nearest.sure else None
     fallback = None if chosen else sure or _most_complete(task, judged)
@@ -268,6 +269,13 @@ def advise(
     )
 
 
+def _omitted(scene: Scene, models: Sequence[Model], quantity: str) -> dict[str, Omission]:
+    """The effects that the models leave out and that the laws do not count, by model."""
+    kind = kind_of_scene(scene)
+    found = {model.name: kind.omitted(scene, model, quantity) for model in models}
+    return {name: omission for name, omission in found.items() if omission is not None}
+
+
 def _judged(task: AdviceTask) -> list[ModelVerdict]:
     """The verdict on every model that applies, cheapest first: at the accepted resolution, or at the most accurate."""
     pairs = [(model, resolution) for model in task.models for resolution in task.resolutions(model)]
@@ -282,7 +290,7 @@ def _judged(task: AdviceTask) -> list[ModelVerdict]:
         within = task.left(model)
         one = (
             _after(task, model, resolution)
-            if chosen or (within <= 0 and a_priori(task, model, resolution) is not None)
+            if chosen or within <= 0
             else _verdict(task, model, resolution, checked=(model.name, resolution) in checked)
         )
         before = verdicts.get(model.name)

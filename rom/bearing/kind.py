@@ -1,7 +1,7 @@
 """The kind of scene "bearing": load and friction of a film with cavitation."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -169,15 +169,14 @@ def _of_the_whole(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]
     return (f"{line}; the whole bearing carries {carried}",)
 
 
-def omitted(scene: Bearing, models: Sequence[Any], quantity: str) -> Mapping[str, Omission]:
-    """The effects that each model leaves out and the laws do not count; none are known if no film converges."""
+def omitted(scene: Bearing, model: Any, quantity: str) -> Omission | None:
+    """The effects that a model leaves out and the laws do not count; None if they are unknown, or no film converges."""
     from roughfilm.rom.bearing.omission import omission  # slow to import
 
     try:
-        found = {model.name: omission(scene, model, quantity) for model in models}
+        return omission(scene, model, quantity)
     except ConvergenceError:
-        return {}
-    return {name: one for name, one in found.items() if one is not None}
+        return None
 
 
 def missing(scene: Bearing, model: Any) -> float:

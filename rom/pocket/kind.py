@@ -1,6 +1,6 @@
 """The kind of scene ``pocket``: load and friction of a film over grooves or dimples."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, get_args
 
 import numpy as np
@@ -18,7 +18,7 @@ from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
 from roughfilm.rom.pocket.plan.dimples import SHAPES
 from roughfilm.rom.pocket.plan.geometry import PlanGeometry
-from roughfilm.rom.pocket.scene import GROOVES, IN_PLAN, TITLES, Pocket
+from roughfilm.rom.pocket.scene import GROOVES, IN_PLAN, LAWS_IN_PLAN, TITLES, Pocket, in_plan
 from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
 
 COMPARED = ("load_plus", "friction_plus")
@@ -133,19 +133,25 @@ def remarks(entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> 
     return (ZERO_IN_PLAN,) if "dimples" in entries["geometry"] else ()
 
 
-def omitted(scene: Pocket, models: Sequence[Any], quantity: str) -> Mapping[str, Omission]:
-    """The effect that each model leaves out where the film ruptures, and inertia for one that keeps cavitation."""
+def omitted(scene: Pocket, model: Any, quantity: str) -> Omission | None:
+    """The effect that a model leaves out where the film ruptures, and inertia for one that keeps cavitation."""
     from roughfilm.rom.pocket.cavitating.omission import omission  # slow to import
 
-    found = {model.name: omission(scene, model, quantity) for model in models}
-    return {name: one for name, one in found.items() if one is not None}
+    return omission(scene, model, quantity)
+
+
+def missing(scene: Pocket, model: Any) -> float:
+    """The relative change of the load by the effects among inertia and cavitation that a model leaves out."""
+    from roughfilm.rom.pocket.cavitating.omission import missing  # slow to import
+
+    return missing(scene, model)
 
 
 def outside_laws(scene: Pocket, result: Result, quantity: str) -> str:
     """The reason for which the laws of the load do not hold for a film whose effects cancel in it; empty if they do."""
     from roughfilm.rom.pocket.validity.warnings import cancellations
 
-    if quantity != "load_plus" or result.model not in FULL_INERTIA:
+    if scene.in_plan or quantity != "load_plus" or result.model not in FULL_INERTIA:
         return ""
     load, lowest, highest = (result.quantities[name].value for name in ("load_plus", *EXTREMES))
     return next(iter(cancellations(scene, load=load, lowest=lowest, highest=highest)), "")
@@ -204,7 +210,9 @@ KIND = Kind(
     symbols=SYMBOLS,
     excluded="heat and deformation",
     omitted=omitted,
+    missing=missing,
     outside_laws=outside_laws,
+    variants={LAWS_IN_PLAN: in_plan},
     files=frozenset({"points"}),
     replaces={
         "motion.speed": ("reynolds_number",),

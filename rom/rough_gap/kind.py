@@ -1,6 +1,6 @@
 """The kind of scene ``rough_gap``: flow through one period of the gap between two walls."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -92,12 +92,11 @@ def numbers(scene: RoughGap) -> dict[str, float]:
     }
 
 
-def omitted(scene: RoughGap, models: Sequence[Any], quantity: str) -> Mapping[str, Omission]:
-    """The effect of cavitation, the same for all models; none if the film does not rupture."""
+def omitted(scene: RoughGap, _model: Any, quantity: str) -> Omission | None:
+    """The effect of cavitation; None if the film does not rupture."""
     from roughfilm.rom.rough_gap.omission import rupture_omitted  # slow to import
 
-    found = rupture_omitted(scene, quantity)
-    return {} if found is None else {model.name: found for model in models}
+    return rupture_omitted(scene, quantity)
 
 
 KIND = Kind(

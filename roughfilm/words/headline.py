@@ -110,7 +110,7 @@ def left_out(scene: Scene, model: Model, models: Sequence[Model]) -> str:
     """The effects that a model leaves out in words: those of other models, and those that no model keeps."""
     missing = _missing(scene, model, models)
     kind = kind_of_scene(scene)
-    omission = kind.omitted(scene, [model], next(iter(kind.compared))).get(model.name)
+    omission = kind.omitted(scene, model, next(iter(kind.compared)))
     parts = [
         listed(missing) if missing else "",
         "" if model.complete else "the higher orders of its effects in a small parameter",

@@ -49,7 +49,7 @@ def test_sliding_ruptures_the_film_above_a_gradient_and_not_below(model):
 
 def of(scene, quantity):
     """The effect that a model leaves out of a quantity."""
-    return kind_of_name("rough_gap").omitted(scene, MODELS[:1], quantity).get(MODELS[0].name)
+    return kind_of_name("rough_gap").omitted(scene, MODELS[0], quantity)
 
 
 def test_the_advice_on_sliding_is_refused_and_that_on_flow_is_not():
