@@ -16,7 +16,7 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.wide_pad.gap import film_obstacle
 from roughfilm.rom.ladder.model import Applicability, Resolutions
 
-SOURCES = ("10.1063/1.168744", "10.1080/01495728408961817", "10.1243/13506501JET452")
+SOURCES = ("10.1063/1.168744", "10.1080/01495728408961817", "10.1243/13506501JET433")
 
 
 def resolutions(scene: Bearing) -> Resolutions:
