@@ -17,7 +17,7 @@ from roughfilm.rom.advice.estimates import (
 from roughfilm.rom.advice.laws import Numbers, Table, lawful, table
 from roughfilm.rom.advice.stated import StatedError, percent
 from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_scene
-from roughfilm.rom.ladder.model import Model, Progress, best, silent
+from roughfilm.rom.ladder.model import Model, Progress, best_for, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
@@ -51,7 +51,7 @@ class ModelVerdict:
     verdict, reason : the verdict and the reason for it, without a number for the error.
     a_priori : estimate of the error by the laws; None if unknown.
     a_posteriori : estimate of the error from runs; None if the models were not run.
-    omitted : part of the effect that the model leaves out and that the laws do not count, which adds to the error.
+    omitted : the effect that the model leaves out and that the laws do not count, whose part adds to the error.
     """
 
     model: str
@@ -61,7 +61,7 @@ class ModelVerdict:
     reason: str
     a_priori: Estimate | None = None
     a_posteriori: Estimate | None = None
-    omitted: float = 0.0
+    omitted: Omission | None = None
 
     @property
     def estimate(self) -> Estimate | None:
@@ -76,7 +76,7 @@ class ModelVerdict:
     @property
     def error(self) -> float | None:
         """The largest expected error over the size of the quantity; None if unknown."""
-        return None if self.estimate is None else self.estimate.error + self.omitted
+        return None if self.estimate is None else self.estimate.error + (self.omitted.part if self.omitted else 0.0)
 
     @property
     def why(self) -> str:
@@ -233,7 +233,7 @@ def advise(
         numbers=kind.numbers(scene),
         run=solved,
         failed=failed,
-        omitted=_omitted(scene, models, quantity),
+        omitted=_omitted(scene, [model for model in models if fits[model.name].applies], quantity),
         within=within,
     )
     if not task.models:
@@ -309,7 +309,7 @@ def _most_complete(task: AdviceTask, judged: Sequence[ModelVerdict]) -> ModelVer
     failing = (Verdict.NOT_HERE, Verdict.FAILED)
     by_name = {one.model: one for one in judged if one.verdict not in failing}
     here = [model for model in task.models if model.name in by_name and model.available().available]
-    return by_name[best(here).name] if here else None
+    return by_name[best_for(task.scene, here).name] if here else None
 
 
 def _better(one: ModelVerdict, other: ModelVerdict) -> bool:
@@ -351,7 +351,7 @@ def _as_verdict(
         reason=reason,
         a_priori=before,
         a_posteriori=after,
-        omitted=task.part_omitted(model),
+        omitted=task.omitted.get(model.name),
     )
 
 

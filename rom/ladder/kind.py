@@ -56,6 +56,11 @@ def nothing_omitted(_scene: Any, _model: Any, _quantity: str) -> None:
     """Return no omission, for kinds whose most complete model keeps every relevant effect."""
 
 
+def nothing_missing(_scene: Any, _model: Any) -> float:
+    """Return 0, for kinds whose model that keeps the most effects is the most complete one for every scene."""
+    return 0.0
+
+
 def within_laws(_scene: Any, _result: Any, _quantity: str) -> str:
     """Return no reason, for kinds whose results do not show whether the error laws hold."""
     return ""
@@ -84,10 +89,13 @@ class Omission:
     ----------
     part : relative change of a quantity by the effect; infinite if it is unknown.
     reason : the effect and its size, in words.
+    source : origin of the part in words, for an error that consists mostly of it; "" if the part does not change the
+        origin of the error.
     """
 
     part: float
     reason: str
+    source: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,6 +130,8 @@ class Kind:
     excluded : the effects that no model of the kind includes, in words.
     omitted : omitted(scene, model, quantity), the size of an effect that a model leaves out and that the error laws do
         not count, such as one that no model of the kind includes; None if it is zero or unknown.
+    missing : missing(scene, model), the relative size of the effects that a model leaves out in a scene, where no model
+        keeps them all: the best model for the scene misses least.
     outside_laws : outside_laws(scene, result, quantity), the reason for which a result shows that the error laws of a
         quantity do not hold; empty if it does not.
     faults : faults(error, entries), the faults of a scene, from pydantic's error; None for ``plain_faults``.
@@ -146,6 +156,7 @@ class Kind:
     window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     omitted: Callable[[Any, Any, str], Omission | None] = nothing_omitted
+    missing: Callable[[Any, Any], float] = nothing_missing
     outside_laws: Callable[[Any, Any, str], str] = within_laws
     files: frozenset[str] = frozenset()
     no_files: frozenset[str] = frozenset()

@@ -18,7 +18,7 @@ from typing_extensions import TypeVar
 from roughfilm.contact.foundation.arrays import finite_arithmetic
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
 from roughfilm.contact.foundation.timing import claimed_costs
-from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.request import CheckedRequest, Request
 from roughfilm.rom.ladder.result import Result, with_finite_numbers
 
@@ -328,6 +328,12 @@ def find(models: Sequence[Model], kind: str, name: str) -> Model:
 def best(models: Sequence[Model]) -> Model:
     """The model that keeps the most effects, in full if there is one: the reference for errors of the others."""
     return max(models, key=lambda model: (len(model.keeps), model.complete))
+
+
+def best_for(scene: Scene, models: Sequence[Model]) -> Model:
+    """The best model for a scene: the one that misses least of its effects, and of equal ones that which keeps most."""
+    missing = kind_of_scene(scene).missing
+    return max(models, key=lambda model: (-missing(scene, model), len(model.keeps), model.complete))
 
 
 def one_effect_away(model: Model, models: Sequence[Model]) -> tuple[tuple[Model, Effect], ...]:

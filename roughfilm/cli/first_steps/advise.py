@@ -93,9 +93,10 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     yield table
     yield from (f"{one.model}: {one.verdict}: {one.why}" for one in advice.considered)
     yield from (f"  {line}" for line in kind.composed(scene))
+    applying = [one for one in advice.considered if one.verdict is not Verdict.DOES_NOT_APPLY]
     for reason in dict.fromkeys(omission.reason for omission in advice.omitted.values()):
         names = [name for name, omission in advice.omitted.items() if omission.reason == reason]
-        yield f"{'all of them' if len(names) == len(advice.considered) else ', '.join(names)}: {reason}"
+        yield f"{'all of them' if len(names) == len(applying) else ', '.join(names)}: {reason}"
     if note := window_note(scene, advice.within):
         yield note
     numbers = [f"{kind.symbols[name]} = {value:.3g}" for name, value in advice.numbers.items() if name in kind.symbols]

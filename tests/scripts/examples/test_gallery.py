@@ -163,6 +163,19 @@ def test_the_load_grows_with_the_reynolds_number_and_vanishes_without_inertia() 
     assert values["by_slope"] == pytest.approx(0.005, abs=5e-4)
 
 
+def test_cavitation_begins_at_its_pressure_and_opposes_inertia() -> None:
+    values = values_of("pockets/inertia_and_cavitation")
+    speeds, load = values["speeds"], values["load"]
+    assert np.abs(load["reynolds"]).max() < 1e-9
+    assert load["film_slope"][1] / load["film_slope"][0] == pytest.approx(2.5**2, rel=0.01)
+    falls = 13.05  # kPa for each m/s: 652.5 kPa at 50 m/s by quadrature
+    assert ((values["ruptured"] > 0) == (falls * speeds > 101.325)).all()
+    whole = values["ruptured"] == 0
+    assert load["reynolds_cavitating"][whole] == pytest.approx(0, abs=1e-9)
+    assert values["cavitation"] == pytest.approx(-32.327, abs=2e-3)  # by quadrature between rupture and reformation
+    assert values["inertia"] == pytest.approx(38.2, abs=0.1)
+
+
 def test_wider_grooves_have_deeper_optima_in_the_range_of_the_source() -> None:
     best = np.array(values_of("pockets/best_depth")["best"])
     assert (np.diff(best) > 0).all()
