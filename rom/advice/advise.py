@@ -1,5 +1,6 @@
 """Choice of the cheapest model that is accurate enough, by fitted error laws and by comparison with other models."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -229,7 +230,7 @@ def advise(
         models=[model for model in models if fits[model.name].applies],
         quantity=quantity,
         title=kind.titles[quantity],
-        table=lawful(laws or table(), kind.name, holds=kind.lawful),
+        table=lawful(laws or table(), kind.name_of_laws, holds=kind.lawful),
         numbers=kind.numbers(scene),
         run=solved,
         failed=failed,
@@ -247,7 +248,7 @@ def advise(
     chosen = next((one for one in judged if one.verdict is Verdict.CHOSEN), None)
     here = {model.name for model in task.models if model.available().available}
     candidates = [one for one in judged if one.verdict is Verdict.NOT_ENOUGH and one.model in here]
-    short = [one for one in candidates if one.error is not None]
+    short = [one for one in candidates if one.error is not None and math.isfinite(one.error)]
     nearest = None if chosen else min(short, key=lambda one: (not one.sure, one.error or 0.0), default=None)
     sure = nearest if nearest is not None and nearest.sure else None
     fallback = None if chosen else sure or _most_complete(task, judged)

@@ -18,7 +18,7 @@ from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
 from roughfilm.rom.pocket.plan.dimples import SHAPES
 from roughfilm.rom.pocket.plan.geometry import PlanGeometry
-from roughfilm.rom.pocket.scene import GROOVES, IN_PLAN, TITLES, Pocket
+from roughfilm.rom.pocket.scene import GROOVES, IN_PLAN, LAWS_IN_PLAN, TITLES, Pocket, in_plan
 from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
 
 COMPARED = ("load_plus", "friction_plus")
@@ -151,7 +151,7 @@ def outside_laws(scene: Pocket, result: Result, quantity: str) -> str:
     """The reason for which the laws of the load do not hold for a film whose effects cancel in it; empty if they do."""
     from roughfilm.rom.pocket.validity.warnings import cancellations
 
-    if quantity != "load_plus" or result.model not in FULL_INERTIA:
+    if scene.in_plan or quantity != "load_plus" or result.model not in FULL_INERTIA:
         return ""
     load, lowest, highest = (result.quantities[name].value for name in ("load_plus", *EXTREMES))
     return next(iter(cancellations(scene, load=load, lowest=lowest, highest=highest)), "")
@@ -212,6 +212,7 @@ KIND = Kind(
     omitted=omitted,
     missing=missing,
     outside_laws=outside_laws,
+    variants={LAWS_IN_PLAN: in_plan},
     files=frozenset({"points"}),
     replaces={
         "motion.speed": ("reynolds_number",),

@@ -29,6 +29,9 @@ FILM_RESIDUAL_TOLERANCE = 1e-11
 SCHEMES = ("linear_upwind", "upwind")
 """Advection schemes, the default first."""
 
+FILM_PLAN_COLUMNS = Resolutions(least=16, most=256, default=64, series=(32, 64, 128))
+"""Numbers of columns along a cell in plan of the thin-film equations."""
+
 FILM_RESOLUTION_MEANING = "cells along the film, each with 10 polynomials across it"
 FILM_RESIDUAL_MEANING = "largest imbalance of momentum in a cell, relative to the largest force in one"
 
@@ -55,6 +58,7 @@ CAVITATING_RESIDUAL_MEANING = "largest net flow into a node over the largest flo
 
 QUADRATURE_RESOLUTION_MEANING = "Gauss points on each smooth piece of the gap"
 QUADRATURE_RESIDUAL_MEANING = "mean mismatch of dp/dx between the nodes, relative to its mean size"
+PLAN_RESIDUAL_MEANING = "in plan, largest net flow out of a column over the largest flow through a face"
 
 
 PLAN_COLUMNS = Resolutions(least=8, most=512, default=64, series=(16, 32, 64, 128))
@@ -90,22 +94,33 @@ def not_in_plan(applies: Callable[[Pocket], Applicability]) -> Callable[[Pocket]
     return applies_to
 
 
+def film_cost(scene: Pocket, resolution: int) -> float:
+    """Expected CPU seconds of the thin-film equations."""
+    if not scene.in_plan:
+        return 2.5e-3 + 5.7e-5 * resolution
+    plan = scene.plan()
+    return float(1e-4 * resolution**2 * plan.breadth / plan.length)
+
+
 def film_model(*, applies: Callable[[Pocket], Applicability], **about: Unpack[About]) -> Model[Pocket]:
-    """A model that solves the thin-film equations; the cost was measured for 50 to 800 cells."""
+    """A model that solves the thin-film equations.
+
+    The cost was measured for 50 to 800 cells over grooves, and for 32 to 128 columns of square cells in plan.
+    """
     grooves = Resolutions(least=MIN_CELLS, most=MAX_CELLS, default=DEFAULT_CELLS, series=CELL_SERIES)
     return Model(
         **about,
         kind="pocket",
-        resolutions=grooves,
-        resolution_meaning=FILM_RESOLUTION_MEANING,
+        resolutions=in_plan_or_not(grooves, FILM_PLAN_COLUMNS),
+        resolution_meaning=f"{FILM_RESOLUTION_MEANING}; {PLAN_RESOLUTION_MEANING}",
         residual_meaning=FILM_RESIDUAL_MEANING,
         order=2,
         tolerance=FILM_RESIDUAL_TOLERANCE,
         tolerances=(1e-14, 1.0),
         schemes=SCHEMES,
-        cost=lambda _scene, resolution: 2.5e-3 + 5.7e-5 * resolution,
-        applies=not_in_plan(applies),
-        compute=deferred("rom.pocket.solve", "solve"),
+        cost=film_cost,
+        applies=applies,
+        compute=computed(grooves="rom.pocket.solve", plan="rom.pocket.plan.film.solve"),
     )
 
 
@@ -119,13 +134,13 @@ def quadrature_model(*, applies: Callable[[Pocket], Applicability], **about: Unp
         kind="pocket",
         resolutions=in_plan_or_not(Resolutions(least=MIN_NODES, most=MAX_NODES, default=NODES, series=NODE_SERIES)),
         resolution_meaning=f"{QUADRATURE_RESOLUTION_MEANING}; {PLAN_RESOLUTION_MEANING}",
-        residual_meaning=QUADRATURE_RESIDUAL_MEANING,
-        order=None,
+        residual_meaning=f"{QUADRATURE_RESIDUAL_MEANING}; {PLAN_RESIDUAL_MEANING}",
+        order=lambda scene: 2 if scene.in_plan else None,
         tolerance=QUADRATURE_RESIDUAL_TOLERANCE,
         tolerances=(1e-300, 1.0),
         cost=lambda scene, resolution: 1e-3 + 3e-6 * resolution**2 if scene.in_plan else 2e-4 + 1e-7 * resolution**2,
         applies=applies,
-        compute=computed(grooves="rom.pocket.quadrature", plan="rom.pocket.plan.reynolds"),
+        compute=computed(grooves="rom.pocket.quadrature", plan="rom.pocket.plan.solve"),
     )
 
 

@@ -43,7 +43,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         film, scene.reynolds_number, tolerance=tolerance, with_slope=Effect.SLOPE in keeps, progress=progress
     )
     state, pressure = found.state, found.pressure
-    warnings = [*cautions(scene), *promise_warnings(scene, model), *newton.mode_warnings(state)]
+    warnings = [*cautions(scene), *promise_warnings(scene, model), *newton.mode_warnings(state.amplitudes, MODES)]
     middle, lowest, highest = (pressure[1:] + pressure[:-1]) / 2, float(pressure.min()), float(pressure.max())
     shear = (1 + thin_film.all_amplitudes(film, across, state) @ sliding_wall_slope(MODES)) / film.thickness
     u, v = slope.velocities(film, even_basis(MODES, LAYERS), state)

@@ -24,16 +24,16 @@ MIN_CELLS = 2
 """Smallest number of cells between two columns at corners."""
 
 
-def columns(gap: Gap, resolution: int) -> Array:
+def columns(gap: Gap, resolution: int, *, corner_density: float = CORNER_DENSITY) -> Array:
     """The positions of about ``resolution`` + 1 mesh columns over the period, in film thicknesses.
 
     The density of columns is
 
-        1 + (CORNER_DENSITY - 1) Σ w / (1 + s²) + (BEND_DENSITY - 1) / (1 + b²)
+        1 + (corner_density - 1) Σ w / (1 + s²) + (BEND_DENSITY - 1) / (1 + b²)
 
     with the distances s to the corners and b to the nearest other break, in this period and its neighbours, in units of
     DENSITY_DECAY_LENGTH. The weight w of a corner is 1, or less where the next corners are near, so that rows of them
-    have at most CORNER_DENSITY. Each piece between corners has a whole number of cells, so that every corner is a
+    have at most ``corner_density``. Each piece between corners has a whole number of cells, so that every corner is a
     column, except where corners are so near that less than a cell would lie between them.
     """
     start, end = gap.breaks[0] / gap.film, gap.breaks[-1] / gap.film
@@ -46,7 +46,7 @@ def columns(gap: Gap, resolution: int) -> Array:
     def cells_up_to(x: Array) -> Array:
         at_corners = DENSITY_DECAY_LENGTH * np.arctan((x[:, None] - corners) / DENSITY_DECAY_LENGTH) @ weights
         at_bends = _nearest_integral(bends, x) if smooth else np.zeros_like(x)
-        return np.asarray(x + (CORNER_DENSITY - 1) * at_corners + (BEND_DENSITY - 1) * at_bends)
+        return np.asarray(x + (corner_density - 1) * at_corners + (BEND_DENSITY - 1) * at_bends)
 
     anchors = np.array([start, *(place for place in np.array(gap.corners) / gap.film if start < place < end), end])
     measures = cells_up_to(anchors)

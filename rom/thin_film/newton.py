@@ -5,10 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.thin_film import slope, thin_film
 from roughfilm.rom.thin_film.basis import Basis, gauss_basis
+from roughfilm.rom.thin_film.continuation import continued
 from roughfilm.rom.thin_film.thin_film import Strip, StripFlow
 
 MODES = 10
@@ -16,12 +17,6 @@ MODES = 10
 
 NEWTON_STEPS = 12
 """Largest number of Newton steps at one Reynolds number."""
-
-MAX_TOTAL_STEPS = 240
-"""Number of Newton steps in all after which the continuation stops."""
-
-MIN_CONTINUATION_STEP = 1e-3
-"""Smallest continuation step over the Reynolds number of the scene."""
 
 MAX_LAST_MODE = 0.1
 """Largest last amplitude over the largest one at which the velocity across the film is resolved."""
@@ -78,7 +73,13 @@ def solve(
     """
     across = gauss_basis(MODES)
     with np.errstate(all="ignore"):
-        found, linear, steps = _continued(film, across, reynolds_number, tolerance, progress, start)
+        found, linear, steps = continued(
+            lambda at, state: _newton(film, across, at, state, tolerance),
+            thin_film.creeping(film, MODES),
+            reynolds_number,
+            progress,
+            start=start,
+        )
         residual, rise = _residual(film, across, linear), thin_film.pressure_rise(film, across, linear.imbalance)
         state = found
         if with_slope:
@@ -87,12 +88,12 @@ def solve(
     return ThinFilm(state=state, uncorrected=found, pressure=pressure, residual=residual, steps=steps)
 
 
-def mode_warnings(state: StripFlow) -> list[str]:
-    """The warning that the polynomials do not resolve the velocity across the film."""
-    size = np.abs(state.amplitudes).max(axis=0)
+def mode_warnings(amplitudes: Array, modes: int) -> list[str]:
+    """The warning that the polynomials do not resolve the velocity across the film; amplitudes along the last axis."""
+    size = np.abs(amplitudes).reshape(-1, amplitudes.shape[-1]).max(axis=0)
     if size[-1] <= MAX_LAST_MODE * size.max():
         return []
-    return [f"{MODES} polynomials do not resolve the velocity across the film: load errors of some per cent"]
+    return [f"{modes} polynomials do not resolve the velocity across the film: load errors of some per cent"]
 
 
 def _residual(film: Strip, across: Basis, linear: thin_film.Linearised) -> float:
@@ -120,31 +121,6 @@ def _newton(
             return state, None, steps
         state = StripFlow(amplitudes=state.amplitudes + change.amplitudes, flow=state.flow + change.flow)
     return state, None, NEWTON_STEPS
-
-
-def _continued(
-    film: Strip, across: Basis, reynolds_number: float, tolerance: float, progress: Progress, start: StripFlow | None
-) -> tuple[StripFlow, thin_film.Linearised, int]:
-    """The flow at a Reynolds number, if necessary by continuation from creeping flow in steps of adapted size."""
-    creeping, total = thin_film.creeping(film, MODES), 0
-    state, reached, stride = start or creeping, 0.0, 1.0
-    while True:
-        target = min(reached + stride, 1.0)
-        progress(reached, f"Re = {target * reynolds_number:.4g}")
-        solution, linear, steps = _newton(film, across, target * reynolds_number, state, tolerance)
-        total += steps
-        if linear is not None and target == 1.0:
-            return solution, linear, total
-        if linear is not None:
-            state, reached, stride = solution, target, 2 * stride
-        else:
-            state, stride = state if reached else creeping, stride / 4
-        if stride < MIN_CONTINUATION_STEP or total > MAX_TOTAL_STEPS:
-            raise ConvergenceError(
-                f"the film equations did not converge to a steady flow above Re = {reached * reynolds_number:.4g} "
-                f"(requested: {reynolds_number:.4g}); take navier_stokes, a coarser resolution or a shallower groove",
-                outcome=Outcome.STALLED,
-            )
 
 
 def _with_slope(

@@ -69,7 +69,7 @@ def solve(solver: Model[Bearing], scene: Bearing, request: CheckedRequest, progr
         *_grid_warnings(scene, finest.strip),
         *rupture_warnings(finest.pressure - scene.lubricant.cavitation_pressure),
         *turbulence_warnings(_reynolds_number(scene)),
-        *newton.mode_warnings(finest.film.state),
+        *newton.mode_warnings(finest.film.state.amplitudes, newton.MODES),
     ]
     uncertainty = _uncertainty([finest, *coarser])
     if not uncertainty:

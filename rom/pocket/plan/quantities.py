@@ -24,6 +24,7 @@ class OnSlidingWall:
     shear_stress : shear stress along the sliding direction, shape (nx, ny).
     on_edge : pressure along the edge x = ±length/2, shape (ny,), of solvers that have it; None if it follows from the
         columns beside the edge.
+    at_corner : pressure at the corner of the cell, of solvers that have it; None if it follows from that on the edge.
     """
 
     x: Array
@@ -32,6 +33,7 @@ class OnSlidingWall:
     pressure: Array
     shear_stress: Array
     on_edge: Array | None = None
+    at_corner: float | None = None
 
     @property
     def middles(self) -> tuple[Array, Array]:
@@ -45,7 +47,7 @@ class OnSlidingWall:
 
     @property
     def edge(self) -> Array:
-        """The pressure along the periodic edge x = ±length/2, between the middles of the columns beside it, (ny,)."""
+        """The pressure along the periodic edge x = ±length/2 at the middles of its columns, shape (ny,)."""
         if self.on_edge is not None:
             return self.on_edge
         first, last = np.diff(self.x)[[0, -1]]
@@ -59,6 +61,8 @@ class OnSlidingWall:
     @property
     def corner(self) -> float:
         """The pressure at the corner x = ±length/2, y = ±breadth/2."""
+        if self.at_corner is not None:
+            return self.at_corner
         first, last = np.diff(self.y)[[0, -1]]
         edge = self.edge
         return float((edge[0] * last + edge[-1] * first) / (first + last))

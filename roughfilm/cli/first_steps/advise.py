@@ -104,8 +104,9 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     if numbers:
         yield f"numbers of the scene: {', '.join(numbers)}"
     laws = laws_table().provenance
-    count = laws["fits"][kind.name]["scenes"]
-    yield f"{advice.spent_cpu_s:.2g} CPU s spent on the advice; laws: {count} random scenes, {laws['command']}"
+    fit = laws["fits"].get(kind.name_of_laws)
+    origin = f"{fit['scenes']} random scenes, {laws['command']}" if fit else "none are fitted to such scenes yet"
+    yield f"{advice.spent_cpu_s:.2g} CPU s spent on the advice; laws: {origin}"
     yield f"{scene.name}: {in_one_line(advice)}"
 
 

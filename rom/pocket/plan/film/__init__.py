@@ -1,0 +1,1 @@
+"""The thin-film Navier-Stokes equations over a cell in plan."""
