@@ -156,7 +156,9 @@ def _errors(
     *_, second, last = sorted(known)
     finest, limit = known[last], known[last][quantity]
     if own.outside:
-        limit += (limit - known[second][quantity]) / ((last / second) ** (own.order_of(read_scene(one.judged.scene)) or 1) - 1)
+        limit += (limit - known[second][quantity]) / (
+            (last / second) ** (own.order_of(read_scene(one.judged.scene)) or 1) - 1
+        )
     for resolution, values in known.items():
         if own.outside or resolution < last:
             yield resolution, over(abs(values[quantity] - limit), float(one.kind.scale(finest, quantity)))

@@ -75,9 +75,7 @@ def dimple(rng: Generator, room: float, film: float) -> Entries:
     found: Entries = {"shape": shape, "width": length(width), "depth": length(depth)}
     if shape in ("ellipsoidal", "box", "chevron", "points"):
         found["breadth"] = length(breadth)
-    if shape in ("box", "chevron"):
-        found["edge"] = length(edge)
-    elif shape in ("spherical", "ellipsoidal", "conical") and chance(rng, 0.3):
+    if shape in ("box", "chevron") or (shape in ("spherical", "ellipsoidal", "conical") and chance(rng, 0.3)):
         found["edge"] = length(edge)
     if shape == "chevron":
         found["angle"] = f"{math.degrees(tip):.9g} deg"
@@ -94,4 +92,5 @@ def points(rng: Generator, depth: float) -> list[list[float]]:
     sides = rng.integers(5, 10, 2)
     depths = np.zeros(sides)
     depths[1:-1, 1:-1] = rng.uniform(0.3, 1.0, sides - 2)
-    return [[float(depth * one / depths.max()) for one in row] for row in depths]
+    rows: list[list[float]] = (depth * depths / depths.max()).tolist()
+    return rows
