@@ -1,5 +1,6 @@
 """Choice of the cheapest model that is accurate enough, by fitted error laws and by comparison with other models."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -51,7 +52,7 @@ class ModelVerdict:
     verdict, reason : the verdict and the reason for it, without a number for the error.
     a_priori : estimate of the error by the laws; None if unknown.
     a_posteriori : estimate of the error from runs; None if the models were not run.
-    omitted : part of the effect that the model leaves out and that the laws do not count, which adds to the error.
+    omitted : the effect that the model leaves out and that the laws do not count, whose part adds to the error.
     """
 
     model: str
@@ -61,7 +62,7 @@ class ModelVerdict:
     reason: str
     a_priori: Estimate | None = None
     a_posteriori: Estimate | None = None
-    omitted: float = 0.0
+    omitted: Omission | None = None
 
     @property
     def estimate(self) -> Estimate | None:
@@ -76,7 +77,7 @@ class ModelVerdict:
     @property
     def error(self) -> float | None:
         """The largest expected error over the size of the quantity; None if unknown."""
-        return None if self.estimate is None else self.estimate.error + self.omitted
+        return None if self.estimate is None else self.estimate.error + (self.omitted.part if self.omitted else 0.0)
 
     @property
     def why(self) -> str:
@@ -247,7 +248,7 @@ def advise(
     chosen = next((one for one in judged if one.verdict is Verdict.CHOSEN), None)
     here = {model.name for model in task.models if model.available().available}
     candidates = [one for one in judged if one.verdict is Verdict.NOT_ENOUGH and one.model in here]
-    short = [one for one in candidates if one.error is not None]
+    short = [one for one in candidates if one.error is not None and math.isfinite(one.error)]
     nearest = None if chosen else min(short, key=lambda one: (not one.sure, one.error or 0.0), default=None)
     sure = nearest if nearest is not None and nearest.sure else None
     fallback = None if chosen else sure or _most_complete(task, judged)
@@ -351,7 +352,7 @@ def _as_verdict(
         reason=reason,
         a_priori=before,
         a_posteriori=after,
-        omitted=task.part_omitted(model),
+        omitted=task.omitted.get(model.name),
     )
 
 

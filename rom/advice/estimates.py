@@ -47,11 +47,14 @@ class Estimate:
     source: str = BY_LAWS
     difference: float | None = None
 
-    def stated(self, omitted: float = 0.0) -> StatedError:
+    def stated(self, omitted: Omission | None = None) -> StatedError:
         """The error as it is stated, with the part of the effect that the laws do not count."""
-        error = self.error + omitted
+        part = 0.0 if omitted is None else omitted.part
+        error = self.error + part
         beyond = None if self.difference is None else error - abs(self.difference)
-        return StatedError(error=error, source=self.source, difference=self.difference, uncertainty=beyond)
+        mostly = omitted is not None and omitted.source and part > self.error and self.difference is None
+        source = omitted.source if omitted is not None and mostly else self.source
+        return StatedError(error=error, source=source, difference=self.difference, uncertainty=beyond)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -197,7 +200,8 @@ def combined(before: Estimate | None, after: Estimate | None) -> Estimate | None
 def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | None = None) -> Estimate | None:
     """The estimate by the laws: the promise of a model, or the sum of the steps above it, and the resolution.
 
-    The parts are independent bounds e_i, which add up to √(Σ e_i²). The result is None if a part has no law. For a
+    The parts are independent bounds e_i, which add up to √(Σ e_i²). The result is None if a part has no law, unless an
+    effect that the laws do not count stands for the error of the most complete model. For a
     model without a promise, the uncertainty that it states for a run replaces the law over resolutions.
     """
     left = left_out(task, task.chain(model))
@@ -205,7 +209,7 @@ def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | No
     by_law = stated is None or promised
     grid = task.grid(model, resolution) if by_law else stated
     if left is None or grid is None:
-        return None
+        return None if left is None else _by_omission(task, model)
     parts, reasons, sure = left
     if grid > 0 and not by_law:
         parts = [*parts, grid]
@@ -222,6 +226,17 @@ def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | No
         sure=sure,
         source=BY_LAWS if by_law or len(parts) > 1 else BY_ITS_RUN,
     )
+
+
+def _by_omission(task: AdviceTask, model: Model) -> Estimate | None:
+    """The estimate for the most complete model whose omitted effect stands for its error; None without one.
+
+    The error is 0, as the part of the effect is added to it.
+    """
+    own = task.omitted.get(model.name)
+    if own is None or not own.source or task.next(model) is not None:
+        return None
+    return Estimate(error=0.0, reasons=(own.reason,), source=own.source)
 
 
 def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], list[tuple[float, str]], bool] | None:

@@ -89,10 +89,13 @@ class Omission:
     ----------
     part : relative change of a quantity by the effect; infinite if it is unknown.
     reason : the effect and its size, in words.
+    source : origin of the part in words, for an error that consists mostly of it; "" if the part does not change the
+        origin of the error.
     """
 
     part: float
     reason: str
+    source: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)

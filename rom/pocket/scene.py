@@ -59,7 +59,7 @@ GROOVES, IN_PLAN = "grooves", "plan"
 """Tags of the two geometries of a pocket, which are no keys of a scene file."""
 
 
-def _geometry_of(entries: Any) -> str:
+def geometry_tag(entries: Any) -> str:
     """The tag of a geometry: a cell in plan has a breadth and dimples."""
     if isinstance(entries, dict):
         return IN_PLAN if {"breadth", "dimples", "arrangement"} & entries.keys() else GROOVES
@@ -72,11 +72,11 @@ LAWS_IN_PLAN = "pocket_in_plan"
 
 def in_plan(entries: Mapping[str, Any]) -> bool:
     """Whether entries of a scene, of which the geometry may be read already, are a cell in plan."""
-    return _geometry_of(entries.get("geometry")) == IN_PLAN
+    return geometry_tag(entries.get("geometry")) == IN_PLAN
 
 
 AnyGeometry = Annotated[
-    Annotated[PocketGeometry, Tag(GROOVES)] | Annotated[PlanGeometry, Tag(IN_PLAN)], Discriminator(_geometry_of)
+    Annotated[PocketGeometry, Tag(GROOVES)] | Annotated[PlanGeometry, Tag(IN_PLAN)], Discriminator(geometry_tag)
 ]
 
 

@@ -40,7 +40,7 @@ def models(kind: str | None = None) -> tuple[Model, ...]:
     --------
     >>> import roughfilm as rf
     >>> [model.name for model in rf.models("pocket")]
-    ['reynolds', 'inertial_reynolds', 'film', 'stokes', 'film_slope', 'navier_stokes']
+    ['reynolds', 'reynolds_cavitating', 'inertial_reynolds', 'film', 'stokes', 'film_slope', 'navier_stokes']
     """
     if kind is not None and kind not in kind_names():
         raise InputError(f"kind: got {kind!r}; it must be one of {', '.join(kind_names())}")

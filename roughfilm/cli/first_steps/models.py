@@ -46,6 +46,7 @@ TYPICAL_CPU_S = {
     "pocket": {
         "reynolds": 0.0002,
         "inertial_reynolds": 0.0002,
+        "reynolds_cavitating": 0.007,
         "film": 0.025,
         "film_slope": 0.025,
         "stokes": 2.5,
