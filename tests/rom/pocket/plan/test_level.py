@@ -49,7 +49,7 @@ def test_a_grid_without_a_coarser_one_has_no_uncertainty():
 
 
 def test_a_cell_that_is_too_broad_is_refused():
-    with pytest.raises(InputError, match="columns along a cell .* need 64000 across it"):
+    with pytest.raises(InputError, match=r"columns along a cell .* need 64000 across it"):
         INERTIAL.solve(scene_of("spherical", breadth="1 m"))
 
 
