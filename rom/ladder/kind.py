@@ -183,7 +183,7 @@ class Kind:
         title, and come last.
         """
         own = self.of(result.provenance["scene"])
-        first = () if own.compared == self.compared else tuple(own.compared)[:1]
+        first = () if own.lawful else tuple(own.compared)[:1]
         names, whole = result.quantities, {f"{name}_per_width" for name in result.quantities}
         ordered = dict.fromkeys((*first, *self.reported, *names))
         return {name: self.reported.get(name, name) for name in ordered if name in names and name not in whole}
