@@ -49,6 +49,7 @@ FEW_WINDOWS = ["--windows", 4, "--size", "80um", "--sizes", "40um", "--jobs", 1]
 
 SCENES_COMPARED = {
     "pocket": SCENES / "pocket.toml",
+    "dimple": SCENES / "dimple.toml",
     "bearing": SCENES / "journal.toml",
     "dry_contact": Path("contact.toml"),
     "seal": Path("seal.toml"),

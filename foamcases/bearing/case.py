@@ -5,8 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.bearing.dictionaries import SIDES, STEPS, pad_dictionaries
-from roughfilm.foamcases.bearing.mesh import Plane, layers_of, plane_of
+from roughfilm.foamcases.bearing.mesh import Plane, layers_of, plane_of, step_obstacle
 from roughfilm.foamcases.bearing.units import pressure_difference, velocity_unit
 from roughfilm.foamcases.openfoam.allrun import allrun
 from roughfilm.foamcases.openfoam.block_mesh import in_space, write_block
@@ -16,6 +17,7 @@ from roughfilm.foamcases.openfoam.dictionaries import write_files, write_second_
 from roughfilm.foamcases.openfoam.relaxation import velocity_relaxation
 from roughfilm.foamcases.openfoam.residuals import Judged
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.wide_pad.gap import film_obstacle
 from roughfilm.rom.ladder.request import CheckedRequest
 
 COLUMNS_PER_LAYER = 5
@@ -94,8 +96,11 @@ def write_pad_case(
     Raises
     ------
     InputError
-        If the directory is not empty or cannot be written, or the wall has no mesh of this resolution.
+        If the film is not resolved by OpenFOAM, the wall has no mesh of this resolution, or the directory is not empty
+        or cannot be written.
     """
+    if obstacle := film_obstacle(scene) or step_obstacle(scene):
+        raise InputError(f"scene: has no OpenFOAM case, as {obstacle}")
     mesh, film, speed = plane_of(scene, request.resolution), scene.geometry.thinnest, velocity_unit(scene)
     stepped, inclined = bool(mesh.lowest.any()), _steepest(mesh) > MIN_SLOPE
     card = PadCard(

@@ -30,7 +30,7 @@ def read(solver: Model[Bearing], scene: Bearing, directory: Path, run: Run) -> R
     through = flow.flow * speed * film
     warnings = [
         *rupture_warnings(outlet + np.array([lowest, highest]) * pascal - scene.lubricant.cavitation_pressure),
-        *turbulence_warnings(reynolds_number(scene)),
+        *([] if scene.lubricant.density is None else turbulence_warnings(reynolds_number(scene))),
         *run.warnings,
     ]
     return Result(

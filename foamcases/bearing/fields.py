@@ -15,6 +15,9 @@ from roughfilm.foamcases.openfoam.block_mesh import used_points
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.fields import internal_field, last_fields, points
 
+MARGIN = 1e-3
+"""Distance of vertices that the mesh does not have below all others, over the largest film thickness."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class PadFlow:
@@ -174,13 +177,14 @@ def _flow_along(kept: Mask, through: Array) -> Array:
 
 
 def _filled(vertices: Array) -> Array:
-    """The vertices with those below the wall, which the mesh does not have, a film thickness apart below it."""
-    layers = np.arange(vertices.shape[1])
-    missing = np.isnan(vertices[..., 1])
-    first = missing.sum(axis=1)
-    lowest = np.take_along_axis(vertices, first[:, None, None], axis=1)
-    below = lowest - np.stack([np.zeros(missing.shape), first[:, None] - layers], axis=-1)
-    return np.where(missing[..., None], below, vertices)
+    """The vertices with those below the wall, which the mesh does not have, evenly spaced down to the deepest one."""
+    layers, y = np.arange(vertices.shape[1]), vertices[..., 1]
+    first = np.isnan(y).sum(axis=1, keepdims=True)
+    lowest = np.take_along_axis(vertices, first[..., None], axis=1)
+    deepest = np.nanmin(y) - MARGIN * (1 - np.nanmin(y))
+    share = 1 - layers / np.maximum(first, 1)
+    below = lowest + np.stack([np.zeros(share.shape), share * (deepest - lowest[..., 1])], axis=-1)
+    return np.where(np.isnan(vertices), below, vertices)
 
 
 def _areas(vertices: Array) -> Array:

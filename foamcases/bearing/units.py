@@ -1,5 +1,6 @@
 """The unit of velocity of a pad's case, and the pressure that drives its flow."""
 
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.scene import Bearing
 
 
@@ -16,6 +17,14 @@ def velocity_unit(scene: Bearing) -> float:
 
 
 def reynolds_number(scene: Bearing) -> float:
-    """The Reynolds number of the minimum film thickness and the velocity unit; 0 without a density."""
+    """The Reynolds number of the minimum film thickness and the velocity unit.
+
+    Raises
+    ------
+    InputError
+        Without a density.
+    """
     lubricant = scene.lubricant
-    return (lubricant.density or 0.0) * velocity_unit(scene) * scene.geometry.thinnest / lubricant.viscosity
+    if lubricant.density is None:
+        raise InputError("scene.lubricant.density: is missing; give it, or take stokes, which leaves inertia out")
+    return lubricant.density * velocity_unit(scene) * scene.geometry.thinnest / lubricant.viscosity

@@ -91,7 +91,9 @@ def _run(mesh: Ended, checked: Checked, wall_s: float, version: str) -> Run:
     )
 
 
-def numerics_of(card: Written, run: Run, *, unknowns: int, details: dict[str, float]) -> Numerics:
+def numerics_of(
+    card: Written, run: Run, *, unknowns: int, details: dict[str, float], imbalance: float | None = None
+) -> Numerics:
     """The numerics of the result of a run.
 
     Parameters
@@ -99,6 +101,7 @@ def numerics_of(card: Written, run: Run, *, unknowns: int, details: dict[str, fl
     card : the options with which the case was written.
     unknowns : number of unknowns.
     details : further numbers; the relaxation of velocity and the Reynolds number of the case are added.
+    imbalance : imbalance of the forces on the liquid over the force that drives it; None if it was not computed.
     """
     return Numerics(
         residual=run.residual,
@@ -110,6 +113,14 @@ def numerics_of(card: Written, run: Run, *, unknowns: int, details: dict[str, fl
         tolerance=card.tolerance,
         scheme=card.scheme,
         processes=card.processes,
-        runs=tuple(SolverRun(outcome=str(t.outcome), iterations=t.iterations, recipe=t.recipe) for t in run.tries),
+        runs=tuple(
+            SolverRun(
+                outcome=str(t.outcome),
+                iterations=t.iterations,
+                recipe=t.recipe,
+                imbalance=imbalance if t is run.tries[-1] else None,
+            )
+            for t in run.tries
+        ),
         details={"velocity_relaxation": card.relaxation, "reynolds_number": card.reynolds_number, **details},
     )

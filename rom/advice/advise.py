@@ -1,5 +1,6 @@
 """Choice of the cheapest model that is accurate enough, by fitted error laws and by comparison with other models."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -17,7 +18,7 @@ from roughfilm.rom.advice.estimates import (
 from roughfilm.rom.advice.laws import Numbers, Table, lawful, table
 from roughfilm.rom.advice.stated import StatedError, percent
 from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_scene
-from roughfilm.rom.ladder.model import Model, Progress, best, silent
+from roughfilm.rom.ladder.model import Model, Progress, best_for, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
@@ -51,7 +52,7 @@ class ModelVerdict:
     verdict, reason : the verdict and the reason for it, without a number for the error.
     a_priori : estimate of the error by the laws; None if unknown.
     a_posteriori : estimate of the error from runs; None if the models were not run.
-    omitted : part of the effect that the model leaves out and that the laws do not count, which adds to the error.
+    omitted : the effect that the model leaves out and that the laws do not count, whose part adds to the error.
     """
 
     model: str
@@ -61,7 +62,7 @@ class ModelVerdict:
     reason: str
     a_priori: Estimate | None = None
     a_posteriori: Estimate | None = None
-    omitted: float = 0.0
+    omitted: Omission | None = None
 
     @property
     def estimate(self) -> Estimate | None:
@@ -76,7 +77,7 @@ class ModelVerdict:
     @property
     def error(self) -> float | None:
         """The largest expected error over the size of the quantity; None if unknown."""
-        return None if self.estimate is None else self.estimate.error + self.omitted
+        return None if self.estimate is None else self.estimate.error + (self.omitted.part if self.omitted else 0.0)
 
     @property
     def why(self) -> str:
@@ -229,11 +230,11 @@ def advise(
         models=[model for model in models if fits[model.name].applies],
         quantity=quantity,
         title=kind.titles[quantity],
-        table=lawful(laws or table(), kind.name, holds=kind.lawful),
+        table=lawful(laws or table(), kind.name_of_laws, holds=kind.lawful),
         numbers=kind.numbers(scene),
         run=solved,
         failed=failed,
-        omitted=_omitted(scene, models, quantity),
+        omitted=_omitted(scene, [model for model in models if fits[model.name].applies], quantity),
         within=within,
     )
     if not task.models:
@@ -247,7 +248,7 @@ def advise(
     chosen = next((one for one in judged if one.verdict is Verdict.CHOSEN), None)
     here = {model.name for model in task.models if model.available().available}
     candidates = [one for one in judged if one.verdict is Verdict.NOT_ENOUGH and one.model in here]
-    short = [one for one in candidates if one.error is not None]
+    short = [one for one in candidates if one.error is not None and math.isfinite(one.error)]
     nearest = None if chosen else min(short, key=lambda one: (not one.sure, one.error or 0.0), default=None)
     sure = nearest if nearest is not None and nearest.sure else None
     fallback = None if chosen else sure or _most_complete(task, judged)
@@ -309,7 +310,7 @@ def _most_complete(task: AdviceTask, judged: Sequence[ModelVerdict]) -> ModelVer
     failing = (Verdict.NOT_HERE, Verdict.FAILED)
     by_name = {one.model: one for one in judged if one.verdict not in failing}
     here = [model for model in task.models if model.name in by_name and model.available().available]
-    return by_name[best(here).name] if here else None
+    return by_name[best_for(task.scene, here).name] if here else None
 
 
 def _better(one: ModelVerdict, other: ModelVerdict) -> bool:
@@ -351,7 +352,7 @@ def _as_verdict(
         reason=reason,
         a_priori=before,
         a_posteriori=after,
-        omitted=task.part_omitted(model),
+        omitted=task.omitted.get(model.name),
     )
 
 

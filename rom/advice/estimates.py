@@ -8,7 +8,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Un
 from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid
 from roughfilm.rom.advice.stated import BY_ITS_RUN, BY_LAWS, StatedError
 from roughfilm.rom.ladder.kind import Kind, Omission, Scene
-from roughfilm.rom.ladder.model import Model, best, find
+from roughfilm.rom.ladder.model import Model, best_for, find
 from roughfilm.rom.ladder.result import Result
 
 MAX_COST_OF_BEST = 0.01
@@ -47,11 +47,14 @@ class Estimate:
     source: str = BY_LAWS
     difference: float | None = None
 
-    def stated(self, omitted: float = 0.0) -> StatedError:
+    def stated(self, omitted: Omission | None = None) -> StatedError:
         """The error as it is stated, with the part of the effect that the laws do not count."""
-        error = self.error + omitted
+        part = 0.0 if omitted is None else omitted.part
+        error = self.error + part
         beyond = None if self.difference is None else error - abs(self.difference)
-        return StatedError(error=error, source=self.source, difference=self.difference, uncertainty=beyond)
+        mostly = omitted is not None and omitted.source and part > self.error and self.difference is None
+        source = omitted.source if omitted is not None and mostly else self.source
+        return StatedError(error=error, source=source, difference=self.difference, uncertainty=beyond)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,7 +97,7 @@ class AdviceTask:
 
     def step(self, model: Model) -> Step | None:
         """The step from a model to the next one that applies; None for the most complete model."""
-        return self.table.step(self.kind.name, model.name, {other.name for other in self.models})
+        return self.table.step(self.kind.name_of_laws, model.name, {other.name for other in self.models})
 
     def next(self, model: Model) -> Model | None:
         """The next more complete model; None for the most complete one."""
@@ -120,12 +123,15 @@ class AdviceTask:
         return law.error(numbers, RESOLVING) if law is not None and law.knows(numbers) else None
 
     def at_full_resolution(self, model: Model, resolution: int) -> bool:
-        """Whether a model without an order of convergence resolves all waves of the scene's surface."""
-        return model.order is None and resolution >= max(model.resolutions_of(self.scene))
+        """Whether a model without an order of convergence for the scene has its finest resolution.
+
+        It then resolves all waves of a surface, or integrates a film exactly but for rounding.
+        """
+        return model.order_of(self.scene) is None and resolution >= max(model.resolutions_of(self.scene))
 
     def grid_law(self, model: Model) -> Law | None:
         """The law of the error by the resolution of a model; None if there is none."""
-        return self.table.grid(self.kind.name, model.name, self.quantity)
+        return self.table.grid(self.kind.name_of_laws, model.name, self.quantity)
 
     def beyond_grids(self, model: Model, resolution: int) -> str | None:
         """The name of a number outside the range of the law over resolutions of a model; None if there is none."""
@@ -194,15 +200,16 @@ def combined(before: Estimate | None, after: Estimate | None) -> Estimate | None
 def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | None = None) -> Estimate | None:
     """The estimate by the laws: the promise of a model, or the sum of the steps above it, and the resolution.
 
-    The parts are independent bounds e_i, which add up to √(Σ e_i²). The result is None if a part has no law. For a
+    The parts are independent bounds e_i, which add up to √(Σ e_i²). The result is None if a part has no law, unless an
+    effect that the laws do not count stands for the error of the most complete model. For a
     model without a promise, the uncertainty that it states for a run replaces the law over resolutions.
     """
     left = left_out(task, task.chain(model))
-    promised = task.quantity in task.table.promise(task.kind.name, model.name).laws
+    promised = task.quantity in task.table.promise(task.kind.name_of_laws, model.name).laws
     by_law = stated is None or promised
     grid = task.grid(model, resolution) if by_law else stated
     if left is None or grid is None:
-        return None
+        return None if left is None else _by_omission(task, model)
     parts, reasons, sure = left
     if grid > 0 and not by_law:
         parts = [*parts, grid]
@@ -221,6 +228,17 @@ def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | No
     )
 
 
+def _by_omission(task: AdviceTask, model: Model) -> Estimate | None:
+    """The estimate for the most complete model whose omitted effect stands for its error; None without one.
+
+    The error is 0, as the part of the effect is added to it.
+    """
+    own = task.omitted.get(model.name)
+    if own is None or not own.source or task.next(model) is not None:
+        return None
+    return Estimate(error=0.0, reasons=(own.reason,), source=own.source)
+
+
 def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], list[tuple[float, str]], bool] | None:
     """The errors by the effects that a model leaves out, the errors with reasons, and whether all are sure.
 
@@ -232,7 +250,7 @@ def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], lis
     for place, model in enumerate(chain):
         if place < contained:
             continue
-        promise = task.table.promise(task.kind.name, model.name)
+        promise = task.table.promise(task.kind.name_of_laws, model.name)
         law = promise.laws.get(task.quantity)
         step = task.step(model)
         own = on_grid(task.numbers, model.resolution_of(task.scene))
@@ -311,7 +329,7 @@ def affordable(task: AdviceTask, pairs: Sequence[tuple[Model, int]]) -> set[tupl
     The pairs are taken in order of cost, as long as all runs together cost at most ``BUDGET`` of the best model here at
     its finest usual resolution. That run itself is always affordable. The choice does not depend on the tolerance.
     """
-    top = best([model for model in task.models if model.available().available] or task.models)
+    top = best_for(task.scene, [model for model in task.models if model.available().available] or task.models)
     finest = max(task.resolutions(top))
     left = BUDGET * task.cost(top, finest)
     paid = {(top.name, finest)}
@@ -344,7 +362,7 @@ def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estima
     by_laws = a_priori(task, model, resolution, own.error) if estimate.source == BY_LAWS else None
     if by_laws is not None and by_laws.sure:
         return replace(by_laws, error=max(by_laws.error, own.error), sure=estimate.sure, decides=True)
-    promised = task.quantity in task.table.promise(task.kind.name, model.name).laws
+    promised = task.quantity in task.table.promise(task.kind.name_of_laws, model.name).laws
     adds = not promised and "waves" in task.numbers and task.at_full_resolution(model, resolution)
     error = math.hypot(estimate.error, own.error) if adds else max(estimate.error, own.error)
     first = own if own.error > estimate.error else estimate
@@ -354,7 +372,7 @@ def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estima
 
 def _cheap(task: AdviceTask, check: float, cost: float) -> bool:
     """Whether a check of this cost is cheap compared with the best model, or with the checked model of this cost."""
-    top = best(task.models)
+    top = best_for(task.scene, task.models)
     return check <= max(MAX_COST_OF_BEST * task.cost(top, top.resolution_of(task.scene)), MAX_COST_OF_MODEL * cost)
 
 

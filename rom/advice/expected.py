@@ -82,7 +82,7 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
             models=applying,
             quantity=quantity,
             title=title,
-            table=lawful(table(), kind.name, holds=kind.lawful),
+            table=lawful(table(), kind.name_of_laws, holds=kind.lawful),
             numbers=kind.numbers(scene),
             run=lambda other, grid: other.solve(scene, Request(resolution=grid)),
         )
@@ -91,8 +91,7 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
         own = task.uncertainty(result) if quantity in result.quantities else None
         estimate = a_priori(task, model, result.numerics.resolution, own)
         if estimate is not None and estimate.sure:
-            omitted = kind.omitted(scene, model, quantity)
-            stated = estimate.stated(omitted.part if omitted else 0.0)
+            stated = estimate.stated(kind.omitted(scene, model, quantity))
             stated = replace(stated, error=max(stated.error, own or 0.0))
             errors |= {quantity: stated} if math.isfinite(stated.error) else {}
     return errors

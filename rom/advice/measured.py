@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from roughfilm.rom.advice.expected import with_errors
 from roughfilm.rom.advice.stated import StatedError, measured, stated_errors
 from roughfilm.rom.ladder.kind import Scene
-from roughfilm.rom.ladder.model import Model, best
+from roughfilm.rom.ladder.model import Model, best_for
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.studies.comparison import to_best
 
@@ -24,11 +24,11 @@ def with_measured_errors(scene: Scene, models: Sequence[Model], results: Mapping
     results : results by the name of the model; at least one.
     """
     by_name = {model.name: model for model in models}
-    top = best([by_name[name] for name in results]).name
+    top = best_for(scene, [by_name[name] for name in results]).name
     judged = {top: with_errors(results[top], scene, by_name[top], models)}
     floor = stated_errors(judged[top])
     known: dict[str, dict[str, StatedError]] = {}
-    for one in to_best(models, results):
+    for one in to_best(scene, models, results):
         bar = floor[one.quantity].error if one.quantity in floor else one.uncertainty
         known.setdefault(one.model, {})[one.quantity] = measured(top, one.relative, bar)
     return {

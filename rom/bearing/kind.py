@@ -169,14 +169,21 @@ def _of_the_whole(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]
     return (f"{line}; the whole bearing carries {carried}",)
 
 
-def omitted(scene: Bearing, _model: Any, quantity: str) -> Omission | None:
-    """The first-order effect of inertia; None without a density, or if the film does not converge."""
-    from roughfilm.rom.bearing.omission import inertia_omitted  # slow to import
+def omitted(scene: Bearing, model: Any, quantity: str) -> Omission | None:
+    """The effects that a model leaves out and the laws do not count; None if they are unknown, or no film converges."""
+    from roughfilm.rom.bearing.omission import omission  # slow to import
 
     try:
-        return inertia_omitted(scene, quantity)
+        return omission(scene, model, quantity)
     except ConvergenceError:
         return None
+
+
+def missing(scene: Bearing, model: Any) -> float:
+    """The relative change of the load by the effects among inertia and cavitation that a model leaves out."""
+    from roughfilm.rom.bearing.omission import missing  # slow to import
+
+    return missing(scene, model)
 
 
 def window(scene: Bearing) -> Surface | None:
@@ -225,6 +232,7 @@ KIND = Kind(
     excluded="inertia, heat and deformation of the bodies as a whole",
     composed=composed,
     omitted=omitted,
+    missing=missing,
     files=frozenset({"table", "surface", "thickness"}),
     lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
     faults=validation_faults,

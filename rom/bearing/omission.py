@@ -1,23 +1,184 @@
-"""The first-order estimate of inertia, which all models of a bearing leave out."""
+"""The effects that models of a bearing leave out and the error laws do not count: inertia, or cavitation and slope."""
 
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.rom.bearing.effects.inertia import inertia_obstacle
 from roughfilm.rom.bearing.equilibrium.expected import expected_film, expected_scene
 from roughfilm.rom.bearing.inertia import inertia
+from roughfilm.rom.bearing.models.film import MODEL as FILM
+from roughfilm.rom.bearing.models.film_slope import MODEL as FILM_SLOPE
+from roughfilm.rom.bearing.models.reynolds import MODEL as REYNOLDS
+from roughfilm.rom.bearing.models.reynolds_incompressible import MODEL as REYNOLDS_INCOMPRESSIBLE
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.quantities import bearing_quantities
-from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.scene import Bearing, Inlet
 from roughfilm.rom.cavitation.solve import load_loops, solve
-from roughfilm.rom.ladder.kind import Omission
+from roughfilm.rom.ladder.kind import Omission, kind_of, kind_of_scene
+from roughfilm.rom.ladder.model import Effect, Model
+from roughfilm.rom.ladder.request import Request
+from roughfilm.rom.ladder.result import Result
 
 CELLS = {True: 512, False: 64}
 """Number of cells along a side, for an infinitely wide film (True) and for others."""
 
-FILM = "film_min"
+FILM_MIN = "film_min"
 
 MIN_STEEPNESS = 0.5
 """Smallest exponent of the load over the film thickness by which a change of the load is divided."""
 
 INERTIA_FIELDS = {"load_per_width": "load", "friction_per_width": "friction"}
+
+NEGLIGIBLE_DENSITY = 1e-9
+"""Density of a liquid without inertia, kg/m³."""
+
+SMALLEST_PART = 1e-6
+"""Relative change below which an effect is not mentioned."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class WidePad:
+    """An infinitely wide pad by models that differ by one effect, each pair of them on one grid.
+
+    Attributes
+    ----------
+    film, creeping, slope : with inertia, without it, and with inertia and slope.
+    reynolds, cavitating : by the Reynolds equation without cavitation and with it.
+    """
+
+    film: Result
+    creeping: Result
+    slope: Result
+    reynolds: Result
+    cavitating: Result
+
+    def change(self, quantity: str, one: Result, other: Result) -> float:
+        """The difference of a quantity between two results over its size in the film with inertia; at least 0."""
+        if any(quantity not in result.quantities for result in (one, other, self.film)):
+            return 0.0
+        size = kind_of(self.film).scale_of(self.film, quantity)
+        return abs(one[quantity].value - other[quantity].value) / size if size > 0 else 0.0
+
+    def by_inertia(self, quantity: str) -> float:
+        """The relative change of a quantity by inertia."""
+        return self.change(quantity, self.film, self.creeping)
+
+    def by_slope(self, quantity: str) -> float:
+        """The relative change of a quantity by slope to second order."""
+        return self.change(quantity, self.slope, self.film)
+
+    def by_cavitation(self, quantity: str) -> float:
+        """The relative change of a quantity by cavitation; 0 for a film that does not rupture."""
+        return self.change(quantity, self.cavitating, self.reynolds) if self.ruptures else 0.0
+
+    @property
+    def ruptures(self) -> bool:
+        """Whether the film cavitates."""
+        return self.cavitating["cavitated_fraction"].value > 0
+
+
+def wide_pad(scene: Bearing) -> WidePad | None:
+    """The quantities of an infinitely wide pad with and without effects; None where inertia is not resolved."""
+    return _solved(_Question(entries=scene.model_dump_json(exclude_none=True, exclude={"name"}), scene=scene))
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Question:
+    """A scene, which is compared by its entries."""
+
+    entries: str
+    scene: Bearing = field(compare=False)
+
+
+@lru_cache(maxsize=16)
+def _solved(question: _Question) -> WidePad | None:
+    scene = question.scene
+    if not FILM.applies(scene).applies:
+        return None
+
+    def solved(model: Model[Bearing], case: Bearing = scene) -> Result:
+        return model.solve(case, Request(resolution=model.resolutions_of(scene)[-2]))
+
+    try:
+        return WidePad(
+            film=solved(FILM),
+            creeping=solved(FILM, _creeping(scene)),
+            slope=solved(FILM_SLOPE),
+            reynolds=solved(REYNOLDS),
+            cavitating=solved(REYNOLDS_INCOMPRESSIBLE),
+        )
+    except ConvergenceError:
+        return None
+
+
+def _creeping(scene: Bearing) -> Bearing:
+    """The same pad with a negligible density, and with the same pressure at its inlet."""
+    lubricant, boundary = scene.lubricant.model_copy(update={"density": NEGLIGIBLE_DENSITY}), scene.boundary
+    if boundary.inlet.theta is None:
+        inlet = Inlet.model_construct(pressure=scene.inlet_pressure)
+        boundary = boundary.model_copy(update={"inlet": inlet})
+    return scene.model_copy(update={"lubricant": lubricant, "boundary": boundary})
+
+
+def missing(scene: Bearing, model: Model[Bearing]) -> float:
+    """The relative change of the load by the effects among inertia and cavitation that a model leaves out.
+
+    It is 0 where inertia is not resolved.
+    """
+    pad = wide_pad(scene)
+    if pad is None:
+        return 0.0
+    changes = {Effect.INERTIA: pad.by_inertia, Effect.CAVITATION: pad.by_cavitation}
+    return sum(change("load_per_width") for effect, change in changes.items() if effect not in model.keeps)
+
+
+def omission(scene: Bearing, model: Model[Bearing], quantity: str) -> Omission | None:
+    """The relative change of a quantity by the effects that a model leaves out and the error laws do not count.
+
+    Those of models without inertia are inertia, of models that resolve the flow across the film cavitation, of ``film``
+    slope, and of ``film_slope`` its higher orders, which are taken to be at most the second one. None where they cannot
+    be estimated or are below ``SMALLEST_PART``.
+    """
+    if not model.keeps & {Effect.INERTIA, Effect.SLOPE}:
+        return inertia_omitted(scene, quantity)
+    parts = [
+        one
+        for one in (
+            None if Effect.INERTIA in model.keeps else inertia_omitted(scene, quantity),
+            *_of_pad(scene, model, quantity),
+        )
+        if one is not None and one.part > SMALLEST_PART
+    ]
+    if not parts:
+        return None
+    return Omission(part=sum(one.part for one in parts), reason="; ".join(one.reason for one in parts))
+
+
+def _of_pad(scene: Bearing, model: Model[Bearing], quantity: str) -> list[Omission]:
+    """The changes by cavitation, and by slope where a model does not keep it in full."""
+    pad = wide_pad(scene)
+    if pad is None:
+        return []
+    found = []
+    if pad.ruptures:
+        part = pad.by_cavitation(quantity)
+        reason = f"the film ruptures, and cavitation changes {_named(quantity)} {_by(part)} in the Reynolds equation"
+        found.append(Omission(part=part, reason=reason))
+    if Effect.SLOPE not in model.keeps or not model.complete:
+        part = pad.by_slope(quantity)
+        orders = "slope to second order" if Effect.SLOPE not in model.keeps else "slope beyond the second order"
+        bound = "" if Effect.SLOPE not in model.keeps else " at most"
+        found.append(Omission(part=part, reason=f"{orders} changes {_named(quantity)}{bound} {_by(part)}"))
+    return found
+
+
+def _named(quantity: str) -> str:
+    return f"the {INERTIA_FIELDS[quantity]}" if quantity in INERTIA_FIELDS else quantity
+
+
+def _by(part: float) -> str:
+    return f"by about {100 * part:.2g} %"
 
 
 def _of_film(scene: Bearing) -> Omission | None:
@@ -34,25 +195,35 @@ def _of_film(scene: Bearing) -> Omission | None:
 def inertia_omitted(scene: Bearing, quantity: str) -> Omission | None:
     """The relative change of load or friction of the smooth film by inertia; None where it cannot be estimated.
 
+    In an infinitely wide pad whose film does not rupture it is that of ``film``, otherwise that of first order.
+
     Raises
     ------
     ConvergenceError
         If the film does not converge.
     """
-    if inertia_obstacle(scene) is not None or quantity not in (*INERTIA_FIELDS, FILM):
+    if inertia_obstacle(scene) is not None or quantity not in (*INERTIA_FIELDS, FILM_MIN):
         return None
-    if quantity == FILM:
+    if quantity == FILM_MIN:
         return None if scene.load is None else _of_film(scene)
+    pad, number = wide_pad(scene), bearing_numbers(scene)["reduced_reynolds_number"]
+    resolved = pad is not None and not pad.ruptures
+    fraction = pad.by_inertia(quantity) if pad is not None and resolved else _first_order(scene, quantity)
+    change = _by(fraction) if resolved or fraction < 1 else "by more than the first-order estimate can predict"
+    kept = "which of these models film includes" if pad is not None else "which no model of this bearing includes"
+    return Omission(
+        part=fraction,
+        reason=f"reduced Reynolds number Re·h/L = {number:.2g}: inertia, {kept}, changes the "
+        f"{INERTIA_FIELDS[quantity]} {change}",
+    )
+
+
+def _first_order(scene: Bearing, quantity: str) -> float:
+    """The relative change of load or friction by inertia to first order, of the film with cavitation."""
     scene = expected_scene(scene)
     load_loops(scene.wide)
     solution = solve(scene.problem(), (CELLS[scene.wide],) * 2)
     width = 1.0 if scene.geometry.width is None else scene.geometry.width
-    size = abs(bearing_quantities(scene, solution)[quantity].value)
-    fraction = abs(getattr(inertia(scene, solution), INERTIA_FIELDS[quantity])) / width / size if size > 0 else 0.0
-    number = bearing_numbers(scene)["reduced_reynolds_number"]
-    change = f"by about {100 * fraction:.2g} %" if fraction < 1 else "by more than the first-order estimate can predict"
-    return Omission(
-        part=fraction,
-        reason=f"reduced Reynolds number Re·h/L = {number:.2g}: inertia, which no model of a bearing includes, "
-        f"changes the {INERTIA_FIELDS[quantity]} {change}",
-    )
+    values = {name: one.value for name, one in bearing_quantities(scene, solution).items()}
+    size = float(kind_of_scene(scene).scale(values, quantity))
+    return abs(getattr(inertia(scene, solution), INERTIA_FIELDS[quantity])) / width / size if size > 0 else 0.0

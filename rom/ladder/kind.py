@@ -56,6 +56,11 @@ def nothing_omitted(_scene: Any, _model: Any, _quantity: str) -> None:
     """Return no omission, for kinds whose most complete model keeps every relevant effect."""
 
 
+def nothing_missing(_scene: Any, _model: Any) -> float:
+    """Return 0, for kinds whose model that keeps the most effects is the most complete one for every scene."""
+    return 0.0
+
+
 def within_laws(_scene: Any, _result: Any, _quantity: str) -> str:
     """Return no reason, for kinds whose results do not show whether the error laws hold."""
     return ""
@@ -84,10 +89,13 @@ class Omission:
     ----------
     part : relative change of a quantity by the effect; infinite if it is unknown.
     reason : the effect and its size, in words.
+    source : origin of the part in words, for an error that consists mostly of it; "" if the part does not change the
+        origin of the error.
     """
 
     part: float
     reason: str
+    source: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,6 +115,9 @@ class Kind:
     compared_with : the compared quantities of scenes that have a table, by the name of the table; the error laws do not
         hold for these scenes.
     lawful : whether the error laws hold; False for the kind of a scene with such a table.
+    laws : name of the error laws of its scenes in the table of laws; "" for the name of the kind.
+    variants : by the name of their error laws, whether entries of a scene have these laws in place of those of the
+        kind.
     ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
@@ -122,6 +133,8 @@ class Kind:
     excluded : the effects that no model of the kind includes, in words.
     omitted : omitted(scene, model, quantity), the size of an effect that a model leaves out and that the error laws do
         not count, such as one that no model of the kind includes; None if it is zero or unknown.
+    missing : missing(scene, model), the relative size of the effects that a model leaves out in a scene, where no model
+        keeps them all: the best model for the scene misses least.
     outside_laws : outside_laws(scene, result, quantity), the reason for which a result shows that the error laws of a
         quantity do not hold; empty if it does not.
     faults : faults(error, entries), the faults of a scene, from pydantic's error; None for ``plain_faults``.
@@ -142,10 +155,13 @@ class Kind:
     remarks: Callable[[Mapping[str, Any], Mapping[str, Quantity]], Sequence[str]] = nothing_remarked
     compared_with: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     lawful: bool = True
+    laws: str = ""
+    variants: Mapping[str, Callable[[Mapping[str, Any]], bool]] = field(default_factory=dict)
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     omitted: Callable[[Any, Any, str], Omission | None] = nothing_omitted
+    missing: Callable[[Any, Any], float] = nothing_missing
     outside_laws: Callable[[Any, Any, str], str] = within_laws
     files: frozenset[str] = frozenset()
     no_files: frozenset[str] = frozenset()
@@ -167,17 +183,25 @@ class Kind:
         title, and come last.
         """
         own = self.of(result.provenance["scene"])
-        first = () if own is self else tuple(own.compared)[:1]
+        first = () if own.compared == self.compared else tuple(own.compared)[:1]
         names, whole = result.quantities, {f"{name}_per_width" for name in result.quantities}
         ordered = dict.fromkeys((*first, *self.reported, *names))
         return {name: self.reported.get(name, name) for name in ordered if name in names and name not in whole}
 
     def of(self, entries: Mapping[str, Any]) -> "Kind":
-        """The kind with the compared quantities of a scene, from its entries by the names of their tables."""
+        """The kind with the compared quantities and the laws of a scene, from its entries by the names of tables."""
+        own = next((name for name, belongs in self.variants.items() if belongs(entries)), "")
+        if own:
+            return replace(self, laws=own, variants={}).of(entries)
         for table, compared in self.compared_with.items():
             if entries.get(table) is not None:
                 return self._comparing(compared)
         return self
+
+    @property
+    def name_of_laws(self) -> str:
+        """The name of the error laws of its scenes in the table of laws."""
+        return self.laws or self.name
 
     def seeking(self, quantity: str) -> "Kind":
         """The kind of scenes that ask for a quantity by a table of their own, such as the film under a load."""
@@ -221,6 +245,16 @@ def kind_of_name(name: str) -> Kind:
         raise KeyError(name)
     kind: Kind = importlib.import_module(f"{rom.__name__}.{name}.kind").KIND
     return kind
+
+
+def kind_of_laws(name: str) -> Kind:
+    """The kind whose scenes have the error laws of a name; KeyError if there is none."""
+    if name in kind_names():
+        return kind_of_name(name)
+    for kind in kinds().values():
+        if name in kind.variants:
+            return replace(kind, laws=name, variants={})
+    raise KeyError(name)
 
 
 def kinds() -> Mapping[str, Kind]:

@@ -18,7 +18,7 @@ from typing_extensions import TypeVar
 from roughfilm.contact.foundation.arrays import finite_arithmetic
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
 from roughfilm.contact.foundation.timing import claimed_costs
-from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.request import CheckedRequest, Request
 from roughfilm.rom.ladder.result import Result, with_finite_numbers
 
@@ -144,7 +144,8 @@ class Model(Generic[SceneT]):
     resolutions : allowed and default resolutions, or a function of the scene that returns them.
     resolution_meaning : the things that the resolution counts, in words.
     residual_meaning : the error that the residual measures, in words.
-    order : order of load and friction in the resolution; None for a spectral method.
+    order : order of load and friction in the resolution; None for a spectral method; or a function of the scene that
+        returns it.
     tolerance : default residual at which its solver stops.
     tolerances : least and greatest tolerance allowed.
     schemes : advection schemes that it offers, the default first; empty where there is no choice.
@@ -166,7 +167,7 @@ class Model(Generic[SceneT]):
     resolutions: Resolutions | Callable[[SceneT], Resolutions]
     resolution_meaning: str
     residual_meaning: str
-    order: int | None
+    order: int | None | Callable[[SceneT], int | None]
     tolerance: float
     tolerances: tuple[float, float] = (1e-13, 1.0)
     schemes: tuple[str, ...] = ()
@@ -264,6 +265,10 @@ class Model(Generic[SceneT]):
         """The allowed and default resolutions for a scene."""
         return self.resolutions if isinstance(self.resolutions, Resolutions) else self.resolutions(scene)
 
+    def order_of(self, scene: SceneT) -> int | None:
+        """The order of load and friction in the resolution for a scene; None for a spectral method."""
+        return self.order(scene) if callable(self.order) else self.order
+
     def resolutions_of(self, scene: SceneT) -> tuple[int, ...]:
         """The resolutions for charts and studies of a scene, from coarse to fine."""
         return self.offered(scene).series
@@ -328,6 +333,12 @@ def find(models: Sequence[Model], kind: str, name: str) -> Model:
 def best(models: Sequence[Model]) -> Model:
     """The model that keeps the most effects, in full if there is one: the reference for errors of the others."""
     return max(models, key=lambda model: (len(model.keeps), model.complete))
+
+
+def best_for(scene: Scene, models: Sequence[Model]) -> Model:
+    """The best model for a scene: the one that misses least of its effects, and of equal ones that which keeps most."""
+    missing = kind_of_scene(scene).missing
+    return max(models, key=lambda model: (-missing(scene, model), len(model.keeps), model.complete))
 
 
 def one_effect_away(model: Model, models: Sequence[Model]) -> tuple[tuple[Model, Effect], ...]:

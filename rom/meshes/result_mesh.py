@@ -12,6 +12,8 @@ from roughfilm.rom.ladder.result import Field, Result
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.meshes.walls_mesh import periodic
 from roughfilm.rom.parts.pressed_surface import RoughContact
+from roughfilm.rom.pocket.plan.plan import Plan
+from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.rough_gap.scene import RoughGap
 
 PLACES = {"vertices", "kept", "x", "y"}
@@ -24,7 +26,8 @@ def result_mesh(result: Result) -> Mesh:
     A result with ``vertices``, (nx+1, ny+1, 2) or (nx+1, ny+1, nz+1, 3), gives quadrilaterals or hexahedra with all
     fields of shape (nx, ny, ...) or (nx, ny, nz, ...), without the cells where ``kept``, (nx, ny), is 0. A result with
     ``x`` and ``y``, (nx, ny), gives quadrilaterals between these points (x in rad is an angle, y the radius), or lines
-    if ny = 1. A dry contact, a seal or a rough gap gives quadrilaterals over one period of its surface.
+    if ny = 1; for a cell in plan these points are the middles of the quadrilaterals. A dry contact, a seal or a rough
+    gap gives quadrilaterals over one period of its surface.
 
     Raises
     ------
@@ -34,10 +37,10 @@ def result_mesh(result: Result) -> Mesh:
     fields = result.fields
     if "vertices" in fields:
         return _cells(fields)
-    if "x" in fields and "y" in fields:
-        return _plane(fields)
-    plane = {name: field for name, field in fields.items() if field.values.ndim == 2}
     scene = _scene(result)
+    if "x" in fields and "y" in fields:
+        return _columns(fields, scene.plan()) if isinstance(scene, Pocket) and scene.in_plan else _plane(fields)
+    plane = {name: field for name, field in fields.items() if field.values.ndim == 2}
     if not plane or not isinstance(scene, RoughContact | RoughGap):
         raise InputError(
             f"result of {result.model}: none of its fields ({', '.join(sorted(fields)) or 'it has none'}) has "
@@ -65,6 +68,20 @@ def _cells(fields: Mapping[str, Field]) -> Mesh:
     if kept.shape != shape[:2]:
         raise _misshapen("kept", kept.shape, str(shape[:2]))
     return mesh.kept(np.repeat(kept.ravel(), mesh.cells.shape[0] // kept.size))
+
+
+def _columns(fields: Mapping[str, Field], plan: Plan) -> Mesh:
+    """The columns of a cell in plan from their middles: each face is as far from the middle before as from the next."""
+    shape, faces = fields["x"].values.shape, []
+    if len(shape) != 2 or fields["y"].values.shape != shape:
+        raise _misshapen("x", shape, f"(nx, ny), as the shape of y, {fields['y'].values.shape}")
+    for middles, side in ((fields["x"].values[:, 0], plan.length), (fields["y"].values[0], plan.breadth)):
+        ends = [-side / 2]
+        for middle in middles:
+            ends.append(2 * middle - ends[-1])
+        faces.append(np.array(ends))
+    mesh = grid(_in_space(np.stack(np.meshgrid(*faces, indexing="ij"), axis=-1)))
+    return Mesh(points=mesh.points, cell_type=mesh.cell_type, cells=mesh.cells, cell_data=_data(fields, shape))
 
 
 def _plane(fields: Mapping[str, Field]) -> Mesh:

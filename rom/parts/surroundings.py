@@ -38,7 +38,7 @@ class Surroundings(Part):
 
 
 def rupture_warnings(
-    lowest: float, limit: float, ambient: float, *, kind: str, cause: str = "", remedy: str
+    lowest: float, limit: float, ambient: float, *, left_out_by: str, cause: str = "", remedy: str
 ) -> tuple[str, ...]:
     """A warning if the lowest pressure of a film is below the cavitation pressure.
 
@@ -47,7 +47,7 @@ def rupture_warnings(
     lowest : lowest pressure of the film above ambient, Pa.
     limit : cavitation pressure above ambient, Pa.
     ambient : ambient pressure, absolute, Pa.
-    kind : the kind of scene, in words.
+    left_out_by : the end of the sentence "the film ruptures, which ...", in words.
     cause : the drive that causes the pressure, such as ``under sliding``; "" if there is only one.
     remedy : what to do, in words.
     """
@@ -55,8 +55,8 @@ def rupture_warnings(
         return ()
     return (
         f"pressure: falls {cause + ' ' if cause else ''}to {_kilopascal(lowest)} from ambient, below the cavitation "
-        f"pressure of {_kilopascal(limit)} (ambient pressure {_kilopascal(ambient)}): the film ruptures, which no "
-        f"model of a {kind} includes; {remedy}",
+        f"pressure of {_kilopascal(limit)} (ambient pressure {_kilopascal(ambient)}): the film ruptures, which "
+        f"{left_out_by}; {remedy}",
     )
 
 

@@ -18,7 +18,7 @@ from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
 from roughfilm.rom.pocket.plan.dimples import SHAPES
 from roughfilm.rom.pocket.plan.geometry import PlanGeometry
-from roughfilm.rom.pocket.scene import GROOVES, IN_PLAN, TITLES, Pocket
+from roughfilm.rom.pocket.scene import GROOVES, IN_PLAN, LAWS_IN_PLAN, TITLES, Pocket, in_plan
 from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
 
 COMPARED = ("load_plus", "friction_plus")
@@ -33,6 +33,8 @@ REPORTED = {
     "friction_per_area": "friction per area",
     **{name: f"{title}, dimensionless" for name, title in TITLES.items() if name != "backflow"},
     "backflow": "reverse flow over sliding speed",
+    "cavitated_fraction": "cavitated fraction",
+    "theta_min": "least density ratio",
 }
 """The titles of the quantities of a pocket, in the order of tables."""
 
@@ -131,20 +133,25 @@ def remarks(entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> 
     return (ZERO_IN_PLAN,) if "dimples" in entries["geometry"] else ()
 
 
-def omitted(scene: Pocket, _model: Any, quantity: str) -> Omission | None:
-    """The effect of cavitation; None if the film does not rupture."""
-    from roughfilm.rom.pocket.omission import rupture_omitted  # slow to import
+def omitted(scene: Pocket, model: Any, quantity: str) -> Omission | None:
+    """The effect that a model leaves out where the film ruptures, and inertia for one that keeps cavitation."""
+    from roughfilm.rom.pocket.cavitating.omission import omission  # slow to import
 
-    if scene.in_plan:
-        return None
-    return rupture_omitted(scene, quantity)
+    return omission(scene, model, quantity)
+
+
+def missing(scene: Pocket, model: Any) -> float:
+    """The relative change of the load by the effects among inertia and cavitation that a model leaves out."""
+    from roughfilm.rom.pocket.cavitating.omission import missing  # slow to import
+
+    return missing(scene, model)
 
 
 def outside_laws(scene: Pocket, result: Result, quantity: str) -> str:
     """The reason for which the laws of the load do not hold for a film whose effects cancel in it; empty if they do."""
     from roughfilm.rom.pocket.validity.warnings import cancellations
 
-    if quantity != "load_plus" or result.model not in FULL_INERTIA:
+    if scene.in_plan or quantity != "load_plus" or result.model not in FULL_INERTIA:
         return ""
     load, lowest, highest = (result.quantities[name].value for name in ("load_plus", *EXTREMES))
     return next(iter(cancellations(scene, load=load, lowest=lowest, highest=highest)), "")
@@ -191,16 +198,21 @@ KIND = Kind(
     scene=Pocket,
     summary="grooves or dimples under a sliding wall",
     compared={name: TITLES[name] for name in COMPARED},
-    others={name: title for name, title in TITLES.items() if name not in COMPARED},
+    others={
+        **{name: title for name, title in TITLES.items() if name not in COMPARED},
+        "cavitated_fraction": REPORTED["cavitated_fraction"],
+    },
     reported=REPORTED,
     remarks=remarks,
     scale=scale,
     columns=columns,
     numbers=numbers,
     symbols=SYMBOLS,
-    excluded="cavitation, heat and deformation",
+    excluded="heat and deformation",
     omitted=omitted,
+    missing=missing,
     outside_laws=outside_laws,
+    variants={LAWS_IN_PLAN: in_plan},
     files=frozenset({"points"}),
     replaces={
         "motion.speed": ("reynolds_number",),

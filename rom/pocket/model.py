@@ -58,6 +58,7 @@ CAVITATING_RESIDUAL_MEANING = "largest net flow into a node over the largest flo
 
 QUADRATURE_RESOLUTION_MEANING = "Gauss points on each smooth piece of the gap"
 QUADRATURE_RESIDUAL_MEANING = "mean mismatch of dp/dx between the nodes, relative to its mean size"
+PLAN_RESIDUAL_MEANING = "in plan, largest net flow out of a column over the largest flow through a face"
 
 
 PLAN_COLUMNS = Resolutions(least=8, most=512, default=64, series=(16, 32, 64, 128))
@@ -133,13 +134,13 @@ def quadrature_model(*, applies: Callable[[Pocket], Applicability], **about: Unp
         kind="pocket",
         resolutions=in_plan_or_not(Resolutions(least=MIN_NODES, most=MAX_NODES, default=NODES, series=NODE_SERIES)),
         resolution_meaning=f"{QUADRATURE_RESOLUTION_MEANING}; {PLAN_RESOLUTION_MEANING}",
-        residual_meaning=QUADRATURE_RESIDUAL_MEANING,
-        order=None,
+        residual_meaning=f"{QUADRATURE_RESIDUAL_MEANING}; {PLAN_RESIDUAL_MEANING}",
+        order=lambda scene: 2 if scene.in_plan else None,
         tolerance=QUADRATURE_RESIDUAL_TOLERANCE,
         tolerances=(1e-300, 1.0),
         cost=lambda scene, resolution: 1e-3 + 3e-6 * resolution**2 if scene.in_plan else 2e-4 + 1e-7 * resolution**2,
         applies=applies,
-        compute=computed(grooves="rom.pocket.quadrature", plan="rom.pocket.plan.reynolds"),
+        compute=computed(grooves="rom.pocket.quadrature", plan="rom.pocket.plan.solve"),
     )
 
 

@@ -75,7 +75,7 @@ def ruptures(scene: RoughGap, lowest: float, cause: str) -> tuple[str, ...]:
         lowest,
         scene.cavitation_pressure,
         scene.boundary.ambient_pressure,
-        kind="rough gap",
+        left_out_by="no model of a rough gap includes",
         cause=cause,
         remedy="lower the drive, or raise boundary.ambient_pressure",
     )

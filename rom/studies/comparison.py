@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from roughfilm.rom.ladder.kind import kind_of
-from roughfilm.rom.ladder.model import Effect, Model, best, one_effect_away
+from roughfilm.rom.ladder.kind import Scene, kind_of
+from roughfilm.rom.ladder.model import Effect, Model, best_for, one_effect_away
 from roughfilm.rom.ladder.result import Result
 
 
@@ -115,16 +115,17 @@ def _difference(result: Result, other: Result, quantity: str, effect: Effect | N
     )
 
 
-def to_best(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Difference, ...]:
+def to_best(scene: Scene, models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Difference, ...]:
     """The difference of every solved model from the best solved one, in each quantity that both give.
 
     Parameters
     ----------
+    scene : the scene.
     models : models of one kind of scene.
     results : results by the name of the model; at least one.
     """
     solved = [model for model in models if model.name in results]
-    top = results[best(solved).name]
+    top = results[best_for(scene, solved).name]
     return tuple(
         _difference(results[model.name], top, quantity, None, top)
         for model in solved
@@ -133,17 +134,20 @@ def to_best(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Dif
     )
 
 
-def undecided(models: Sequence[Model], results: Mapping[str, Result]) -> dict[str, tuple[tuple[str, str], ...]]:
+def undecided(
+    scene: Scene, models: Sequence[Model], results: Mapping[str, Result]
+) -> dict[str, tuple[tuple[str, str], ...]]:
     """The pairs of solved models, by quantity, that the uncertainty of the best solved one does not distinguish.
 
     Parameters
     ----------
+    scene : the scene.
     models : models of one kind of scene.
     results : results by the name of the model; at least one.
     """
-    top = results[best([model for model in models if model.name in results]).name]
+    top = results[best_for(scene, [model for model in models if model.name in results]).name]
     errors: dict[str, dict[str, float]] = {}
-    for one in to_best(models, results):
+    for one in to_best(scene, models, results):
         errors.setdefault(one.quantity, {top.model: 0.0})[one.model] = one.relative
     pairs = {
         quantity: tuple(
@@ -156,16 +160,17 @@ def undecided(models: Sequence[Model], results: Mapping[str, Result]) -> dict[st
     return {quantity: found for quantity, found in pairs.items() if found}
 
 
-def effects(models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Difference, ...]:
+def effects(scene: Scene, models: Sequence[Model], results: Mapping[str, Result]) -> tuple[Difference, ...]:
     """The change by each effect: for each pair of solved models that differ by one effect, with it minus without it.
 
     Parameters
     ----------
+    scene : the scene.
     models : models of one kind of scene.
     results : results by the name of the model; at least one.
     """
     solved = [model for model in models if model.name in results]
-    top = results[best(solved).name]
+    top = results[best_for(scene, solved).name]
     return tuple(
         _difference(results[other.name], results[model.name], quantity, effect, top)
         for model in solved

@@ -1,4 +1,4 @@
-"""Streamlines and speed in and above grooves: python -m roughfilm.figures.streamlines RESULT.h5 PICTURE.png."""
+"""Streamlines and speed over grooves or dimples: python -m roughfilm.figures.streamlines RESULT.h5 PICTURE.png."""
 
 import sys
 from pathlib import Path
@@ -7,6 +7,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.rendering import scalar_bar, write_picture
+from roughfilm.figures.spatial.dimples import draw as draw_dimples
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.store import load
 
@@ -23,22 +24,24 @@ HEIGHT_TO_WIDTH = 0.22
 """Height of the stretched film over its width, in the picture."""
 
 
-def stream_function(vertices: Array, velocity: Array) -> Array:
+def stream_function(vertices: Array, velocity: Array, *, periodic: bool = True) -> Array:
     """ψ = ∫ (u dy - v dx) along the columns from the still wall, at the vertices; shape (nx + 1, ny + 1), m²/s.
 
-    Second order; the mean of the two neighbouring columns at each inner vertex.
+    Second order; the mean of the two neighbouring columns at each vertex, and at an end the column beside it.
 
     Parameters
     ----------
-    vertices : corners of the cells, shape (nx + 1, ny + 1, 2), m; the last column is the first one period later.
+    vertices : corners of the cells, shape (nx + 1, ny + 1, 2), m.
     velocity : velocity in the cells, shape (nx, ny, 2), m/s.
+    periodic : whether the last column is the first one a period later; otherwise the film has two ends.
     """
     across = np.diff(vertices, axis=1)
     layers = (across[1:] + across[:-1]) / 2
     rise = velocity[..., 0] * layers[..., 1] - velocity[..., 1] * layers[..., 0]
     columns = np.pad(np.cumsum(rise, axis=1), ((0, 0), (1, 0)))
-    periodic = np.concatenate([columns[-1:], columns, columns[:1]])
-    return np.asarray((periodic[1:] + periodic[:-1]) / 2)
+    before, behind = (columns[-1:], columns[:1]) if periodic else (columns[:1], columns[-1:])
+    around = np.concatenate([before, columns, behind])
+    return np.asarray((around[1:] + around[:-1]) / 2)
 
 
 def shown(vertices: Array) -> slice:
@@ -53,14 +56,18 @@ def shown(vertices: Array) -> slice:
 
 
 def draw(result: Result, picture: Path) -> None:
-    """Draw one PNG: colour is speed relative to the sliding wall's, lines are streamlines."""
+    """Draw one PNG: colour is speed relative to the sliding wall's, lines are streamlines. Dimples are in space."""
     import pyvista
 
     vertices = result.fields["vertices"].values
+    if vertices.shape[-1] == 3:
+        draw_dimples(result, picture)
+        return
     velocity = result.fields["cell_velocity"].values
-    sliding_speed = float(result.fields["cell_velocity"].values[..., 0].max())
+    sliding_speed = float(np.abs(velocity[:, -1, 0]).max())
     x, y = vertices[..., 0] * 1e6, vertices[..., 1] * 1e6
-    window = shown(vertices)
+    periodic = result.provenance["scene"]["kind"] == "pocket"
+    window = shown(vertices) if periodic else slice(0, vertices.shape[0])
     left, right = x[window.start, 0], x[window.stop - 1, 0]
     width, height = right - left, y.max() - y.min()
     stretch = max(1.0, HEIGHT_TO_WIDTH * width / height)
@@ -68,12 +75,16 @@ def draw(result: Result, picture: Path) -> None:
     grid = pyvista.StructuredGrid(x[window, :, None], y[window, :, None] * stretch, np.zeros_like(x[window, :, None]))
     speed = np.linalg.norm(velocity, axis=2)[window.start : window.stop - 1]
     grid.cell_data["speed"] = (speed / sliding_speed).ravel(order="F")
-    psi = stream_function(vertices, velocity)[window]
+    psi = stream_function(vertices, velocity, periodic=periodic)[window]
+    psi *= np.sign(psi[:, -1].mean())
     grid.point_data["psi"] = psi.ravel(order="F")
     flow = psi[:, -1].mean()
     levels = [*(np.linspace(0, 1, 15)[1:-1] ** 1.5 * flow)]
     if psi.min() < -1e-5 * flow:
         levels += [*np.linspace(psi.min(), 0, 6)[1:]]
+    if "kept" in result.fields:
+        grid.cell_data["kept"] = result.fields["kept"].values.ravel(order="F")
+        grid = grid.threshold(0.5, scalars="kept")
     lines = grid.contour(sorted(levels), scalars="psi")
 
     plotter = pyvista.Plotter(off_screen=True, window_size=list(WINDOW))

@@ -168,6 +168,10 @@ def _requests(study: Study, tolerance: float | None, processes: int) -> list[tup
                 )
                 setting.model.checked(case.scene, request)
                 requests.append((case, setting, request))
+    if not requests:
+        models_of = {setting.model.name: setting.model for setting in settings}
+        reasons = [f"{name}: {model.applies(study.cases[0].scene).reason}" for name, model in models_of.items()]
+        raise InputError(f"scene: no model solves it in OpenFOAM: {'; '.join(reasons)}")
     return requests
 
 

@@ -98,7 +98,7 @@ def write_case(
 
     Parameters
     ----------
-    scene : a scene of kind "pocket" or "rough_gap".
+    scene : a scene of kind "pocket", "rough_gap", or "bearing" if it is an infinitely wide pad.
     directory : the case directory, which must be empty or not exist.
     model : "navier_stokes" or "stokes".
     resolution : number of mesh columns, as ``resolution_meaning`` of the model explains; the model has a default.

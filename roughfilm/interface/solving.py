@@ -12,7 +12,7 @@ from roughfilm.rom.advice import advise as advice
 from roughfilm.rom.advice.expected import with_errors
 from roughfilm.rom.advice.measured import with_measured_errors
 from roughfilm.rom.ladder.kind import Scene, kind_names
-from roughfilm.rom.ladder.model import Model, Progress, best, silent
+from roughfilm.rom.ladder.model import Model, Progress, best_for, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.studies.comparison import scale, to_best, undecided, with_uncertainty
@@ -40,7 +40,7 @@ def models(kind: str | None = None) -> tuple[Model, ...]:
     --------
     >>> import roughfilm as rf
     >>> [model.name for model in rf.models("pocket")]
-    ['reynolds', 'inertial_reynolds', 'film', 'stokes', 'film_slope', 'navier_stokes']
+    ['reynolds', 'reynolds_cavitating', 'inertial_reynolds', 'film', 'stokes', 'film_slope', 'navier_stokes']
     """
     if kind is not None and kind not in kind_names():
         raise InputError(f"kind: got {kind!r}; it must be one of {', '.join(kind_names())}")
@@ -202,7 +202,7 @@ class Comparison:
     ----------
     results : results by the name of the model, from the simplest model to the one with the most effects; their expected
         errors are measured against the best model, in the quantities that are compared.
-    best : name of the solved model with the most effects.
+    best : name of the solved model that leaves out least.
     errors : by model and quantity, the signed difference from the best model over the size of the quantity.
     uncertainty : by quantity, the uncertainty of these differences, which is that of the best model: its numerical one,
         or its expected error where that is unknown.
@@ -263,12 +263,12 @@ def compare(scene: Scene, *, models: Sequence[str] | None = None, progress: Prog
     if not results:
         reasons = "; ".join(f"{name}: {reason}" for name, reason in left_out.items())
         raise ConvergenceError(f"models: none of them solves the scene: {reasons}")
-    top = best([model for model in known if model.name in results]).name
+    top = best_for(scene, [model for model in known if model.name in results]).name
     results = with_measured_errors(scene, ladder.models(scene.kind), results)
     carried = {**results, top: _with_expected_uncertainty(results[top])}
     errors: dict[str, dict[str, float]] = {}
     uncertainty = {}
-    for difference in to_best(known, carried):
+    for difference in to_best(scene, known, carried):
         errors.setdefault(difference.model, {})[difference.quantity] = difference.relative
         if difference.uncertainty is not None:
             uncertainty[difference.quantity] = difference.uncertainty
@@ -277,7 +277,7 @@ def compare(scene: Scene, *, models: Sequence[str] | None = None, progress: Prog
         best=top,
         errors=errors,
         uncertainty=uncertainty,
-        undecided=undecided(known, carried),
+        undecided=undecided(scene, known, carried),
         left_out=left_out,
     )
 

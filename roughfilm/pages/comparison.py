@@ -14,7 +14,7 @@ from roughfilm.rom.advice.expected import error_warnings
 from roughfilm.rom.advice.stated import percent as bound
 from roughfilm.rom.advice.stated import stated_errors
 from roughfilm.rom.ladder.kind import Kind, Scene
-from roughfilm.rom.ladder.model import Model, best
+from roughfilm.rom.ladder.model import Model, best_for
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.studies.comparison import Difference, Point, relative_uncertainty
@@ -90,7 +90,7 @@ def write_comparison(report: Report, path: Path) -> None:
         report=report,
         view=report.view,
         compared=report.kind.compared,
-        reduced=report.best != best([model for model in report.models if model.applies(report.scene).applies]).name,
+        reduced=report.best != best_for(report.scene, _applying(report)).name,
         best=best_result,
         headline=head,
         cards=_cards(report, scales, head.quantity),
@@ -106,6 +106,10 @@ def write_comparison(report: Report, path: Path) -> None:
         grouped=_groups(report),
         sources=[(doi, LINKS + doi) for doi in sorted(sources)],
     )
+
+
+def _applying(report: Report) -> list[Model]:
+    return [model for model in report.models if model.applies(report.scene).applies]
 
 
 def _solved(report: Report) -> list[Model]:

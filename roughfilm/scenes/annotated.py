@@ -3,7 +3,7 @@
 import textwrap
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -105,15 +105,15 @@ def _table(
             form = f"one of {len(whole)} forms: " if len(whole) > 1 and value is None else ""
             yield from _wrapped(header, form + (meaning or ""))
             yield from _table(inner, way, value, definitions)
-    for key, given, rows, values in lists:
+    for key, given, rows, entries in lists:
         inner = (*path, key)
-        best = [max(rows, key=lambda way: _fit(way, value)) for value in values]
-        for way, value in [*zip(best, values, strict=True), *((way, None) for way in rows if way not in best)]:
+        best = [max(rows, key=partial(_fit, value=entry)) for entry in entries]
+        for way, entry in [*zip(best, entries, strict=True), *((way, None) for way in rows if way not in best)]:
             yield ""
             meaning = way.get("description", given.get("description", ""))
-            form = "" if value else "another form: "
-            yield from _wrapped(f"{'' if value else '# '}[[{'.'.join(inner)}]]", form + meaning)
-            yield from _table(inner, way, value, definitions, values[0])
+            form = "another form: " if entry is None else ""
+            yield from _wrapped(f"{'# ' if entry is None else ''}[[{'.'.join(inner)}]]", form + meaning)
+            yield from _table(inner, way, entry, definitions, entries[0])
 
 
 def _rows(ways: Iterable[Node], definitions: Node) -> list[Node]:

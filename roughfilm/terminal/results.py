@@ -13,7 +13,7 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.terminal.console import messages, output, print_json, print_message
 from roughfilm.terminal.layout import wrapped
 from roughfilm.terminal.tables import FittedTable
-from roughfilm.words.units import EXACT, UNKNOWN, in_engineering_unit
+from roughfilm.words.units import EXACT, UNKNOWN, in_engineering_units
 
 
 def table_of(heads: Sequence[str], rows: Iterable[Sequence[str]], *, title: str | None = None, left: int = 0) -> Table:
@@ -32,7 +32,8 @@ def quantity_table(result: Result) -> Table:
     Below it stand remarks, such as for which part of the bearing the quantities hold.
     """
     kind = kind_of(result)
-    rows = [(title, *in_engineering_unit(result.quantities[name])) for name, title in kind.listed(result).items()]
+    texts = in_engineering_units(result.quantities)
+    rows = [(title, *texts[name]) for name, title in kind.listed(result).items()]
     known = any(row[2] not in (EXACT, UNKNOWN) for row in rows)
     shown = rows if known else [(title, value, unit) for title, value, _, unit in rows]
     heads = ("quantity", "value", *(["±"] if known else []), "unit")

@@ -8,7 +8,7 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.words.cost import cost_in_words
 from roughfilm.words.headline import whole
 from roughfilm.words.numbers import digits
-from roughfilm.words.units import scale_of
+from roughfilm.words.units import scale_of, without_round_off
 
 
 def summary(result: Result, quantity: str, within: float) -> str:
@@ -33,10 +33,10 @@ def value_of(result: Result, quantity: str) -> str:
         return f"no {kind.titles[quantity]}"
     name = whole(quantity, result)
     of_all = " of the whole bearing" if name.startswith("bearing_") else ""
-    title, shown = f"{kind.titles[quantity]}{of_all}", result.quantities[name]
+    title, shown = f"{kind.titles[quantity]}{of_all}", without_round_off(result.quantities)[name]
     size, unit = scale_of(shown.unit, abs(shown.value))
     own = result[quantity]
-    relative = math.nan if own.uncertainty is None or own.value == 0 else own.uncertainty / abs(own.value)
+    relative = math.nan if own.uncertainty is None or shown.value == 0 else own.uncertainty / abs(own.value)
     bar = f" ± {percent(relative)}" if relative >= LEAST_STATED else ""
     return f"{title} {digits(shown.value / size)}{unit and f' {unit}'}{bar}"
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 from roughfilm.contact.foundation.rounding import TWO_DIGIT_MANTISSA
 from roughfilm.contact.foundation.units import Quantity
@@ -61,6 +62,12 @@ SCALES: Mapping[str, Scales] = {
 }
 """Sizes of the units in which a quantity is shown, in its SI unit, with their names; the smallest first."""
 
+ROUND_OFF = 1e-12
+"""Magnitude over the largest one of the same unit in a result below which a value is round-off."""
+
+BOUND = 1e-6
+"""The bound of an uncertainty that is round-off, over the unit."""
+
 BARE = 1e-4
 """Size of the unit of plain dimensionless numbers above this; it only chooses the unit."""
 
@@ -79,6 +86,45 @@ def scale_of(unit: str, size: float) -> tuple[float, str]:
     neutral = next((one for one in scales if one[1] == "" or one[0] == 1.0), scales[-1])
     chosen = next((one for one in reversed(scales) if one[0] <= size * (1 + 1e-9)), scales[0]) if size > 0 else neutral
     return (1.0, "") if chosen == (BARE, "") else chosen
+
+
+def without_round_off(quantities: Mapping[str, Quantity]) -> dict[str, Quantity]:
+    """The quantities of a result, those that are round-off with the value 0.
+
+    Examples
+    --------
+    >>> found = without_round_off({"load": Quantity(value=4e-12, unit="Pa"), "p": Quantity(value=1e4, unit="Pa")})
+    >>> found["load"].value, found["p"].value
+    (0.0, 10000.0)
+    """
+    largest: dict[str, float] = {}
+    for one in quantities.values():
+        if math.isfinite(one.value):
+            largest[one.unit] = max(largest.get(one.unit, 0.0), abs(one.value))
+    return {
+        name: replace(one, value=0.0) if abs(one.value) < ROUND_OFF * largest.get(one.unit, 0.0) else one
+        for name, one in quantities.items()
+    }
+
+
+def in_engineering_units(quantities: Mapping[str, Quantity]) -> dict[str, tuple[str, str, str]]:
+    """The values, uncertainties and units of the quantities of a result, as texts, from :func:`in_engineering_unit`.
+
+    A value and an uncertainty that are both round-off are written in the unit of the largest value of their dimension.
+
+    Examples
+    --------
+    >>> load = Quantity(value=4e-12, unit="Pa", uncertainty=1e-10)
+    >>> in_engineering_units({"load": load, "pressure": Quantity(value=2e4, unit="Pa")})["load"]
+    ('0', '<0.000001', 'kPa')
+    """
+    cleared = without_round_off(quantities)
+    found = {name: in_engineering_unit(one) for name, one in cleared.items()}
+    for name, one in cleared.items():
+        largest = max(abs(other.value) for other in cleared.values() if other.unit == one.unit)
+        if one.value == 0 != quantities[name].value and (one.uncertainty or math.inf) < BOUND / 1e3 * largest:
+            found[name] = ("0", f"<{BOUND:f}", scale_of(one.unit, largest)[1])
+    return found
 
 
 def in_engineering_unit(quantity: Quantity) -> tuple[str, str, str]:

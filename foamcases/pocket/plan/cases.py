@@ -2,18 +2,23 @@
 
 from pathlib import Path
 
-from roughfilm.foamcases.openfoam.one_flow import Run
+import numpy as np
+
+from roughfilm.foamcases.openfoam.one_flow import Run, numerics_of
 from roughfilm.foamcases.pocket.card import Card
 from roughfilm.foamcases.pocket.plan.fields import read_cell
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
-from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun
+from roughfilm.rom.ladder.result import Field, Result
 from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 
 MAX_IMBALANCE = 0.005
 """Largest difference of the drags on both walls, over that on the sliding wall, without a warning."""
+
+MIN_COLUMNS = 2.0
+"""Least extent of a dimple or ramp over the width of the narrowest columns without a warning."""
 
 
 def read_plan(solver: Model[Pocket], scene: Pocket, directory: Path, card: Card, run: Run) -> Result:
@@ -31,11 +36,15 @@ def read_plan(solver: Model[Pocket], scene: Pocket, directory: Path, card: Card,
     )
     lowest, highest = flow.pressure_range()
     imbalance = flow.imbalance()
-    unbalanced = (
-        (f"the drags on both walls differ by {imbalance:.1%}; the mesh is too coarse or skew",)
-        if imbalance > MAX_IMBALANCE
-        else ()
-    )
+    remarks = []
+    if imbalance > MAX_IMBALANCE:
+        remarks.append(f"the drags on both walls differ by {imbalance:.1%}; the mesh is too coarse or skew")
+    column = film * min(np.diff(x).min(), np.diff(y).min())
+    if plan.smallest < MIN_COLUMNS * column:
+        remarks.append(
+            f"the least extent of a dimple or of the ramp at its rim, {plan.smallest:.3g} m, is below {MIN_COLUMNS:g} "
+            f"of the narrowest columns, {column:.3g} m: its wall is not resolved; take more columns or a wider edge"
+        )
     return Result(
         model=solver.name,
         quantities=plan_quantities(scene, wall, backflow=flow.back_flow(), pressure_range=(lowest, highest)),
@@ -45,35 +54,15 @@ def read_plan(solver: Model[Pocket], scene: Pocket, directory: Path, card: Card,
             "cell_velocity": Field(values=flow.velocity * scene.speed, unit="m/s"),
             "cell_pressure": Field(values=(flow.pressure - wall.edge_mean) * pascal, unit="Pa"),
         },
-        numerics=Numerics(
-            residual=run.residual,
-            iterations=run.tries[-1].iterations,
-            cpu_s=run.cpu_s,
-            wall_s=run.wall_s,
-            degrees_of_freedom=4 * flow.pressure.size // (2 if card.mirrored else 1),
-            resolution=card.resolution,
-            tolerance=card.tolerance,
-            scheme=card.scheme,
-            processes=card.processes,
-            runs=tuple(
-                SolverRun(
-                    outcome=str(t.outcome),
-                    iterations=t.iterations,
-                    recipe=t.recipe,
-                    residual=run.residual if t is run.tries[-1] else None,
-                    imbalance=imbalance if t is run.tries[-1] else None,
-                )
-                for t in run.tries
-            ),
-            details={
-                "velocity_relaxation": card.relaxation,
-                "reynolds_number": card.reynolds_number,
-                "layers": card.layers,
-                "mirrored": float(card.mirrored),
-            },
+        numerics=numerics_of(
+            card,
+            run,
+            unknowns=4 * flow.pressure.size // (2 if card.mirrored else 1),
+            details={"layers": card.layers, "mirrored": float(card.mirrored)},
+            imbalance=imbalance,
         ),
         provenance=provenance(
             scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources, openfoam=run.version
         ),
-        warnings=(*cautions(scene), *ruptures(scene, lowest - wall.edge_mean), *unbalanced, *run.warnings),
+        warnings=(*cautions(scene), *ruptures(scene, lowest - wall.edge_mean), *remarks, *run.warnings),
     )

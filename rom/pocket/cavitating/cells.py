@@ -22,7 +22,7 @@ from roughfilm.rom.pocket.cavitating.cavities import cavity_quantities
 from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
 from roughfilm.rom.pocket.scene import Pocket
 
-LEVEL_TOLERANCE = 1e-7
+LEVEL_TOLERANCE = 1e-6
 """Error of the mean pressure over the edges, over the largest above cavitation pressure, at which it is met."""
 
 MAX_FILMS = 30

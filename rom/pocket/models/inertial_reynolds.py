@@ -1,7 +1,7 @@
 """The Reynolds equation with first-order inertia by a weighted residual."""
 
 from roughfilm.rom.ladder.model import Applicability, Effect
-from roughfilm.rom.pocket.model import not_in_plan, quadrature_model
+from roughfilm.rom.pocket.model import quadrature_model
 from roughfilm.rom.pocket.scene import Pocket
 
 
@@ -18,5 +18,5 @@ MODEL = quadrature_model(
     keeps=frozenset({Effect.INERTIA}),
     complete=False,
     sources=("10.1098/rstl.1886.0005", "10.1115/1.1828067"),
-    applies=not_in_plan(applies),
+    applies=applies,
 )

@@ -23,8 +23,8 @@ def ruptures(scene: Pocket, lowest: float) -> tuple[str, ...]:
         lowest * scene.pressure_unit,
         scene.cavitation_pressure,
         scene.boundary.ambient_pressure,
-        kind="pocket",
-        remedy="solve it as a bearing by reynolds_cavitating, lower the speed, or raise boundary.ambient_pressure",
+        left_out_by="this model leaves out",
+        remedy="take reynolds_cavitating, lower the speed, or raise boundary.ambient_pressure",
     )
 
 

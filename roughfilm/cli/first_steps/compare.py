@@ -21,7 +21,7 @@ from roughfilm.rom.advice.advise import DEFAULT_TOLERANCE
 from roughfilm.rom.advice.measured import with_measured_errors
 from roughfilm.rom.advice.stated import percent, stated_errors
 from roughfilm.rom.ladder.kind import Scene, kind_of, kind_of_scene
-from roughfilm.rom.ladder.model import Model, best
+from roughfilm.rom.ladder.model import Model, best_for
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.ladder.store import STORED, as_entries
@@ -173,13 +173,13 @@ def _judge(
 
     view, titles = views()[scene.kind], kind_of_scene(scene).compared
     solved = [model for model in ladder if model.name in results]
-    top = best(solved)
-    grids = {model.name: convergence(model, runs) for model in solved}
+    top = best_for(scene, solved)
+    grids = {model.name: convergence(model, runs, scene) for model in solved}
     results = {name: _with_grids(result, grids[name]) for name, result in results.items()}
     results = with_measured_errors(scene, ladder, results)
     results = dict(sorted(results.items(), key=lambda item: item[1].numerics.cpu_s))
     chart = points(results[top.name], runs)
-    studies = {model.name: grids[model.name] for model in solved if model.order and grids[model.name]}
+    studies = {model.name: grids[model.name] for model in solved if model.order_of(scene) and grids[model.name]}
     extrapolated = any(one.kind is ConvergenceKind.MONOTONE for study in studies.values() for one in study.values())
     floor = _uncertainty(results[top.name], grids[top.name])
     plots = {
@@ -195,9 +195,9 @@ def _judge(
         results=results,
         absent=absent,
         best=top.name,
-        to_best=to_best(ladder, results),
-        effects=effects(ladder, results),
-        undecided=undecided(ladder, results),
+        to_best=to_best(scene, ladder, results),
+        effects=effects(scene, ladder, results),
+        undecided=undecided(scene, ladder, results),
         chart=chart,
         uncertainty=floor,
         convergence=studies,

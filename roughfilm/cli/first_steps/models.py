@@ -31,6 +31,10 @@ TYPICAL_CPU_S = {
         "homogenized": 0.3,
         "mixed": 0.4,
         "direct": 1.3,
+        "film": 0.06,
+        "film_slope": 0.06,
+        "stokes": 2.5,
+        "navier_stokes": 3,
     },
     "dry_contact": {
         "bearing_area": 0.001,
@@ -42,6 +46,7 @@ TYPICAL_CPU_S = {
     "pocket": {
         "reynolds": 0.0002,
         "inertial_reynolds": 0.0002,
+        "reynolds_cavitating": 0.007,
         "film": 0.025,
         "film_slope": 0.025,
         "stokes": 2.5,

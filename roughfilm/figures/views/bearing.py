@@ -27,6 +27,10 @@ STYLES = {
     "homogenized": Style(colour="#b2182b", line="-", marker="v"),
     "direct": Style(colour="#252525", line="-", marker="P"),
     "mixed": Style(colour="#762a83", line="-", marker="X"),
+    "film": Style(colour="#d6604d", line=(0, (5, 1)), marker="<"),
+    "film_slope": Style(colour="#9970ab", line=(0, (3, 1, 1, 1)), marker=">"),
+    "stokes": Style(colour="#35978f", line=":", marker="h"),
+    "navier_stokes": Style(colour="#c51b7d", line="-", marker="*"),
 }
 
 
@@ -188,6 +192,7 @@ VIEW = View(
     ),
     plots=plots,
     line="along",
+    drawing="roughfilm.figures.streamlines",
     groups=groups_by("shape"),
     errors="of the load and of the friction on the sliding wall",
     ordering="the relative density θ of the inlet, the compression ϑ at the pressure 6ηuL/h² and width over length B/L",

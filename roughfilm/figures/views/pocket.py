@@ -1,4 +1,4 @@
-"""Pockets: pressure along the sliding wall, and errors over width and depth of the groove."""
+"""Pockets: pressure on the sliding wall, flow in the film, and errors over width and depth of grooves or dimples."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from roughfilm.figures.base import new_figure, svg
 from roughfilm.figures.differences import differences
+from roughfilm.figures.plan.on_wall import maps, pressure_along
+from roughfilm.figures.plan.section import section
 from roughfilm.figures.streamlines import shown
 from roughfilm.figures.view import Plot, Style, View
 from roughfilm.rom.ladder.result import Result
@@ -25,6 +27,7 @@ MIN_PERCENT = 1e-3
 STYLES = {
     "reynolds": Style(colour="#7f7f7f", line="--", marker="s"),
     "inertial_reynolds": Style(colour="#e08214", line="-.", marker="D"),
+    "reynolds_cavitating": Style(colour="#8c510a", line=(0, (1, 1)), marker="X"),
     "film": Style(colour="#b2182b", line=(0, (5, 1)), marker="v"),
     "film_slope": Style(colour="#762a83", line=(0, (3, 1, 1, 1)), marker="P"),
     "stokes": Style(colour="#5aae61", line=":", marker="^"),
@@ -116,10 +119,25 @@ def _cells(result: Result) -> tuple[NDArray[np.float64], NDArray[np.float64], ND
 
 
 def plots(scene: Pocket, results: Mapping[str, Result], reference: str) -> dict[str, Plot]:
-    """The figures of a comparison; differences of flows where several models resolve the film."""
+    """The figures of a comparison; differences of flows, or a section of a dimple, where models resolve the film."""
+    if scene.in_plan:
+        return _plots_in_plan(scene, results, reference)
     lines = {"pressure": Plot(svg=pressure(scene, results, reference))}
     found = flows(scene, results, reference)
     return lines | ({"flows": found} if found else {})
+
+
+def _plots_in_plan(scene: Pocket, results: Mapping[str, Result], reference: str) -> dict[str, Plot]:
+    """The figures of a cell in plan; a section of the flow by the reference, or by the last model that resolves it."""
+    found = {
+        "maps": maps(scene, results, reference),
+        "pressure": Plot(svg=pressure_along(scene, results, reference, STYLES)),
+    }
+    resolved = [name for name, result in results.items() if "cell_velocity" in result.fields]
+    if not resolved:
+        return found
+    top = reference if reference in resolved else resolved[-1]
+    return {**found, "section": Plot(svg=section(scene, results[top]), words=(f"By {top}.",))}
 
 
 def _shapes(given: Columns) -> list[tuple[str, float]]:
@@ -197,6 +215,7 @@ VIEW = View(
         "load_per_area",
         "friction_per_area",
         "load_plus",
+        "load_from_corner_plus",
         "friction_plus",
         "pressure_max_plus",
         "pressure_min_plus",

@@ -13,9 +13,9 @@ from rich.table import Table
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.pocket.plan.mesh import vertices
 from roughfilm.ladder import find
-from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.studies.convergence import converge
 from roughfilm.terminal.console import in_one_line, output, run_alone
 from scripts.studies.dimples.snapped import snapped
@@ -42,15 +42,15 @@ MARGIN = 0.3
 """Land across between long boxes, mm."""
 
 
-def cell(dimple: Row, *, length: float = 1.0, breadth: float = 1.0, reynolds_number: float = 160.0) -> Scene:
+def cell(dimple: Row, *, length: float = 1.0, breadth: float = 1.0, reynolds_number: float = 160.0) -> Pocket:
     """The scene of a cell with one dimple and a film of 30 µm; lengths in mm."""
     geometry = {"length": f"{length} mm", "breadth": f"{breadth} mm", "film": "30 um", "dimples": [dict(dimple)]}
     return scene(geometry, reynolds_number)
 
 
-def scene(geometry: Row, reynolds_number: float) -> Scene:
+def scene(geometry: Row, reynolds_number: float) -> Pocket:
     """The scene of a geometry with water-thin oil."""
-    return read_scene(
+    found = read_scene(
         {
             "name": "verification",
             "kind": "pocket",
@@ -59,9 +59,11 @@ def scene(geometry: Row, reynolds_number: float) -> Scene:
             "motion": {"reynolds_number": reynolds_number},
         }
     )
+    assert isinstance(found, Pocket)
+    return found
 
 
-def solve(words: str, scene: Scene, resolution: int, lean: float = 1.0) -> Row:
+def solve(words: str, scene: Pocket, resolution: int, lean: float = 1.0) -> Row:
     """The row of a scene by ``navier_stokes``; ``lean`` 0 is a mesh of vertical columns."""
     before, vertices.LEAN = vertices.LEAN, lean
     try:
@@ -106,9 +108,9 @@ def steep(solved: Solved) -> Iterator[Row]:
     The groove's load by finite elements is 0.2046 (:doc:`pockets`).
     """
     scenes = {
-        f"cap of slope {slope}": (cell(cap, length=0.5, breadth=0.5), (24, 48, 96)) for slope, cap in STEEP.items()
+        f"cap of slope {slope}": (cell(cap, length=0.5, breadth=0.5), (24, 48, 72)) for slope, cap in STEEP.items()
     }
-    scenes["groove"] = cell(GROOVE, breadth=0.1, reynolds_number=40.0), (60, 120, 240)
+    scenes["groove"] = cell(GROOVE, breadth=0.1, reynolds_number=40.0), (60, 120, 180)
     for words, (one, columns) in scenes.items():
         for lean, kind in ((1.0, "leaning"), (0.0, "vertical")):
             rows = []
@@ -122,7 +124,7 @@ def groove(solved: Solved) -> Iterator[Row]:
     """The groove of ``pocket.toml`` in a cell of any breadth, and as a two-dimensional scene (240 columns)."""
     shape = {"width": "0.3 mm", "depth": "7.5 um"}
     rows = []
-    for columns in (48, 96, 192):
+    for columns in (48, 72, 96):
         rows.append(solved("groove", cell({"shape": "groove", **shape}, breadth=0.1), columns))
         yield rows[-1]
     yield limits("groove", rows)
@@ -136,7 +138,7 @@ def long(solved: Solved) -> Iterator[Row]:
     With the load F per area of a cell of breadth B, the part of B F that grows with B is the load of the groove.
     """
     before = None
-    for columns in (48, 96):
+    for columns in (48, 72):
         for breadth in (0.6, 1.2, 1.8) if columns == 48 else (1.2, 1.8):
             box = {"shape": "box", "width": "0.3 mm", "breadth": f"{breadth - MARGIN:.12g} mm", "depth": "7.5 um"}
             row = solved(f"box, cell {breadth} mm broad", cell({**box, "edge": RAMP}, breadth=breadth), columns)
@@ -149,16 +151,16 @@ def long(solved: Solved) -> Iterator[Row]:
                 }
                 yield {"case": f"growth from {before[0]} to {breadth} mm", "columns": columns, **grown}
             before = breadth, row
-    points = [["-0.15 mm", "0 um"], ["-0.12 mm", "7.5 um"], ["0.12 mm", "7.5 um"], ["0.15 mm", "0 um"]]
+    points = [[-1.5e-4, 0.0], [-1.2e-4, 7.5e-6], [1.2e-4, 7.5e-6], [1.5e-4, 0.0]]
     section = scene({"length": "1 mm", "film": "30 um", "profile": "points", "points": points}, 160.0)
-    for columns in (48, 96, 240):
+    for columns in (48, 72, 240):
         yield solved("groove of the section", section, columns)
 
 
 def snappy(solved: Solved) -> Iterator[Row]:
     """The shallow cap on meshes of snappyHexMesh."""
     rows = []
-    for columns in (48, 72, 96, 128):
+    for columns in (48, 72, 96):
         rows.append(solved("snappyHexMesh", cell(CAP), columns))
         yield rows[-1]
     yield limits("snappyHexMesh", rows)
@@ -181,7 +183,7 @@ def command(out: Out, checks: Annotated[list[str], typer.Argument(help=f"Checks:
         if name not in CHECKS:
             raise InputError(f"checks: got {name!r}; it must be one of {', '.join(CHECKS)}")
 
-        def solved(words: str, scene: Scene, resolution: int, lean: float = 1.0, name: str = name) -> Row:
+        def solved(words: str, scene: Pocket, resolution: int, lean: float = 1.0, name: str = name) -> Row:
             method = snapped if name == "snappy" else solve
             inputs = {"scene": scene.model_dump_json(), "resolution": resolution, "lean": lean, "check": name}
             place = out / f"{name}_{words.replace(' ', '_').replace(',', '')}_{resolution}.json"

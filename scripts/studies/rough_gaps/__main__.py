@@ -19,9 +19,9 @@ from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_
 from scripts.studies.rough_gaps import figures, inertia, range_of_validity, surfaces, waves
 from scripts.studies.rough_gaps import map as cheapest
 from scripts.studies.rough_gaps.claims import cards, judge, words
-from scripts.studies.rough_gaps.runs import FOUND, ModelRun, Place, answers
 from scripts.studies.rough_gaps.scenes import MILLED, milled_window
 from scripts.studies.rough_gaps.study import RoughGapStudy
+from scripts.studies.runs import FOUND, ModelRun, Place, answers
 from scripts.studies.study import Out, Surfaces, counted, publish
 
 

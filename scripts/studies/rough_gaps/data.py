@@ -10,8 +10,8 @@ from roughfilm.rom.rough_gap.flow.waves import nearly_smooth_flow
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 from roughfilm.rom.studies.convergence import Convergence, converge
-from scripts.studies.rough_gaps.runs import Answers, ModelRun
 from scripts.studies.rough_gaps.scenes import MILLED
+from scripts.studies.runs import Answers, ModelRun
 
 NAMES = ("A11", "A22", "B1", "friction")
 

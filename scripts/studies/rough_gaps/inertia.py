@@ -11,8 +11,8 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.studies.convergence import converge
 from scripts.studies.rough_gaps.data import ORDER
-from scripts.studies.rough_gaps.runs import Answers, ModelRun
 from scripts.studies.rough_gaps.scenes import CREEPING, over_random, over_waves
+from scripts.studies.runs import Answers, ModelRun
 
 REYNOLDS = (3.0, 10.0, 30.0, 100.0, 300.0)
 WAVES = ((0.1, 5.0), (0.3, 20.0), (0.3, 5.0), (0.3, 2.5), (0.5, 5.0))

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from roughfilm.rom.rough_gap.scene import RoughGap
 from scripts.studies.rough_gaps.data import GapComparison, asked_of, compare
-from scripts.studies.rough_gaps.runs import Answers, ModelRun
 from scripts.studies.rough_gaps.scenes import MILLED, gap, over_random, peak_over_rms
+from scripts.studies.runs import Answers, ModelRun
 
 GRIDS = (24, 32, 48)
 

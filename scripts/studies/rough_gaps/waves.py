@@ -9,8 +9,8 @@ import numpy as np
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.rom.rough_gap.flow.exact import sinusoidal_ridge_flow
 from scripts.studies.rough_gaps.data import GapComparison, asked_of, compare
-from scripts.studies.rough_gaps.runs import Answers, ModelRun
 from scripts.studies.rough_gaps.scenes import over_waves
+from scripts.studies.runs import Answers, ModelRun
 from scripts.studies.study import kept
 
 AMPLITUDES = (0.1, 0.3, 0.5)

@@ -236,10 +236,24 @@ def test_what_has_failed_is_not_run_again(scene):
 
 def test_a_rung_of_which_no_tolerance_is_left_is_not_called_not_needed(scene, monkeypatch):
     told = Omission(part=0.3, reason="heat, which no rung keeps")
-    kind = replace(kinds()["pocket"], omitted=lambda _scene, _quantity: told)
+    kind = replace(kinds()["pocket"], omitted=lambda _scene, _model, _quantity: told)
     monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_scene", lambda _scene: kind)
     found = Fakes({"reynolds": None, "film": 0.0}).advise(scene, 0.05)
     assert {one.verdict for one in found.considered} == {Verdict.NOT_ENOUGH}
+
+
+def test_an_effect_that_one_model_leaves_out_counts_for_that_model_alone(scene, monkeypatch):
+    told = Omission(part=0.3, reason="cavitation", source="estimated from its effect")
+    kind = replace(
+        kinds()["pocket"], omitted=lambda _scene, model, _quantity: told if model.name == "reynolds" else None
+    )
+    monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_scene", lambda _scene: kind)
+    found = Fakes({"reynolds": 0.01, "film": 0.0}).advise(scene, 0.05)
+    assert (found.chosen.model, found.omitted) == ("film", {"reynolds": told})
+    first = found.considered[0]
+    assert (first.model, first.verdict) == ("reynolds", Verdict.NOT_ENOUGH)
+    assert first.stated.error == pytest.approx(0.31)
+    assert first.stated.words == "31 % (estimated from its effect)"
 
 
 def test_a_promise_up_to_a_model_counts_the_steps_above_it_too(scene):
@@ -319,12 +333,12 @@ def test_a_law_that_is_left_does_not_count_as_an_estimate(scene):
 
 def test_what_every_rung_leaves_out_counts_too(scene, monkeypatch):
     told = Omission(part=0.03, reason="heat, which no rung keeps")
-    kind = replace(kinds()["pocket"], omitted=lambda _scene, _quantity: told)
+    kind = replace(kinds()["pocket"], omitted=lambda _scene, _model, _quantity: told)
     monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_scene", lambda _scene: kind)
     fakes = Fakes({"reynolds": 0.01, "film": 0.0}, {"reynolds": 1.006, "film": 1.0})
     assert fakes.advise(scene, 0.05).chosen.model == "reynolds"
     found = fakes.advise(scene, 0.02)
-    assert (found.chosen, found.omitted) == (None, told)
+    assert (found.chosen, set(found.omitted.values())) == (None, {told})
     assert fakes.ran == ["reynolds", "film"], "nothing more is run where nothing is left of the tolerance"
     assert fakes.advise(scene, 0.035).chosen.model == "film", "0.5 % is left, and reynolds is 0.6 % off"
 
@@ -373,7 +387,11 @@ def test_every_rung_has_a_way_to_the_best_one():
                     assert step.towards not in seen, "in a circle"
                     seen.append(step.towards)
                 top = best([one for one in models if one.name in applying or one is model])
-                assert seen[-1] in (top.name, "direct"), "waves are followed where walls do not touch, beside mixed"
+                alone = {
+                    "pocket": ["reynolds_cavitating"],
+                    "bearing": ["direct", "film", "film_slope", "stokes", "navier_stokes"],
+                }.get(name, [])
+                assert seen[-1] in (top.name, *alone), "these have effects that the most complete model leaves out"
 
 
 def test_a_table_is_read_from_its_text():
@@ -409,24 +427,28 @@ def test_steep_fast_grooves_need_more_than_shallow_slow_ones(make_scene):
     assert steep.chosen is None or steep.chosen.cpu_s > shallow.chosen.cpu_s
 
 
-def test_inertia_that_no_model_of_a_bearing_includes_is_that_of_a_wide_wedge_to_first_order():
+def omitted_by_the_first(kind, scene):
+    return kind.omitted(scene, of_kind(ALL, kind.name)[0], "load_per_width")
+
+
+def test_inertia_that_no_model_of_a_bearing_includes_is_that_of_first_order():
     """Half the density, half the part: to first order; without a density nothing is said."""
     entries = {
         "name": "wedge",
         "kind": "bearing",
-        "geometry": {"shape": "linear", "length": "20 mm", "film": "40 um", "rise": "40 um"},
+        "geometry": {"shape": "linear", "length": "20 mm", "width": "20 mm", "film": "40 um", "rise": "40 um"},
         "lubricant": {"viscosity": "0.01 Pa*s", "density": "800 kg/m^3"},
         "motion": {"speed": "10 m/s"},
     }
     kind = kinds()["bearing"]
-    whole = kind.omitted(kind.read(entries), "load_per_width")
+    whole = omitted_by_the_first(kind, kind.read(entries))
     half = kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s", "density": "400 kg/m^3"}})
-    assert whole.part == pytest.approx(2 * kind.omitted(half, "load_per_width").part, rel=1e-9)
+    assert whole.part == pytest.approx(2 * omitted_by_the_first(kind, half).part, rel=1e-9)
     assert whole.reason.startswith(
-        "reduced Reynolds number Re·h/L = 0.064: inertia, which no model of a bearing includes, "
+        "reduced Reynolds number Re·h/L = 0.064: inertia, which no model of this bearing includes, "
         "changes the load by about "
     )
-    assert kind.omitted(kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s"}}), "load_per_width") is None
+    assert omitted_by_the_first(kind, kind.read({**entries, "lubricant": {"viscosity": "0.01 Pa*s"}})) is None
 
 
 def test_an_uncertainty_that_a_run_states_is_believed_rather_than_the_law_of_its_grid(scene):

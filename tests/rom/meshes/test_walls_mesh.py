@@ -6,6 +6,7 @@ import meshio
 import numpy as np
 import pytest
 import pyvista
+from places import SCENES
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.meshes.files import write_mesh
@@ -13,7 +14,10 @@ from roughfilm.contact.meshes.mesh import CellType, Mesh, boundary, grid, in_tri
 from roughfilm.contact.meshes.surface import surface_mesh
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.foamcases.openfoam.program import succeed
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Field, Numerics, Result
+from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.meshes.result_mesh import result_mesh
 from roughfilm.rom.meshes.walls_mesh import GapPart, gap_mesh, wall_mesh
 from roughfilm.rom.rough_gap.walls import Walls
@@ -181,3 +185,13 @@ def test_a_sector_has_the_area_of_a_ring():
 def test_a_result_without_places_is_refused():
     with pytest.raises(InputError, match=r"none of its fields \(pressure\) has positions in a plane"):
         result_mesh(result_of(pressure=(np.ones((3, 3)), "Pa")))
+
+
+def test_a_cell_in_plan_is_covered_by_the_columns_of_its_result():
+    scene = load_scene(SCENES / "dimple.toml", ["geometry.breadth=0.5 mm"])
+    mesh = result_mesh(find("pocket", "reynolds").solve(scene, Request(resolution=16)))
+    assert mesh.content == pytest.approx(1e-3 * 0.5e-3)
+    assert {"film_thickness (m)", "pressure (Pa)", "shear_stress (Pa)"} <= set(mesh.cell_data)
+    centres = mesh.points[mesh.cells].mean(axis=1)
+    gap = scene.plan().thickness(centres[:, 0], centres[:, 1])
+    assert mesh.cell_data["film_thickness (m)"] == pytest.approx(gap)

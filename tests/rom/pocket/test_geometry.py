@@ -138,7 +138,7 @@ def test_an_override_reaches_a_groove_of_several():
     changed = load_scene(path, ["geometry.grooves.1.depth=9um"])
     assert [groove.depth for groove in changed.grooves] == [7.5e-6, 9e-6]
     for key in ("geometry.grooves.2.depth", "geometry.grooves.-1.depth", "geometry.grooves.depth"):
-        with pytest.raises(InputError, match="as a number in the list 'geometry.grooves'; it must be 0 to 1"):
+        with pytest.raises(InputError, match=r"as a number in the list 'geometry\.grooves'; it must be 0 to 1"):
             load_scene(path, [f"{key}=9um"])
     with pytest.raises(InputError, match="'grooves' is not a table"):
         load_scene(path, ["geometry.grooves.1=9um"])

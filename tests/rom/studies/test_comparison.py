@@ -20,21 +20,26 @@ MODELS = [model for model in of_kind(ladder(rom), "pocket") if model.name in ("r
 
 
 @pytest.fixture
-def results(make_scene):
-    return {model.name: model.solve(make_scene(0.3, 0.25, 40)) for model in MODELS}
+def scene(make_scene):
+    return make_scene(0.3, 0.25, 40)
 
 
-def test_inertia_is_what_the_film_adds(results):
+@pytest.fixture
+def results(scene):
+    return {model.name: model.solve(scene) for model in MODELS}
+
+
+def test_inertia_is_what_the_film_adds(scene, results):
     """Reference: the load of an independent Navier-Stokes solver, 0.880; the film leaves slope out of it."""
-    found = {d.quantity: d for d in effects(MODELS, results)}
+    found = {d.quantity: d for d in effects(scene, MODELS, results)}
     assert found["load_plus"].effect is Effect.INERTIA
     assert (found["load_plus"].model, found["load_plus"].other) == ("film", "reynolds")
     assert found["load_plus"].absolute == pytest.approx(0.880, rel=1e-2)
     assert found["load_plus"].relative == pytest.approx(1)
 
 
-def test_difference_to_the_best_solved_rung(results):
-    loads = {d.model: d for d in to_best(MODELS, results) if d.quantity == "load_plus"}
+def test_difference_to_the_best_solved_rung(scene, results):
+    loads = {d.model: d for d in to_best(scene, MODELS, results) if d.quantity == "load_plus"}
     assert set(loads) == {"reynolds", "inertial_reynolds"}
     assert {d.other for d in loads.values()} == {"film"}
     assert loads["reynolds"].relative == pytest.approx(-1)
@@ -68,15 +73,15 @@ def carrying(result, quantity: str, uncertainty: float):
     return with_uncertainty(result, {quantity: uncertainty})
 
 
-def test_errors_carry_the_uncertainty_of_the_reference(results):
+def test_errors_carry_the_uncertainty_of_the_reference(scene, results):
     """The film is the reference: a bar of 0.0088 is 1 % of its load, 0.880."""
     known = {**results, "film": carrying(results["film"], "load_plus", 0.0088)}
-    of_load = {d.model: d for d in to_best(MODELS, known) if d.quantity == "load_plus"}
+    of_load = {d.model: d for d in to_best(scene, MODELS, known) if d.quantity == "load_plus"}
     assert [d.uncertainty for d in of_load.values()] == pytest.approx([0.01, 0.01], rel=1e-2)
-    (effect,) = (d for d in effects(MODELS, known) if d.quantity == "load_plus")
+    (effect,) = (d for d in effects(scene, MODELS, known) if d.quantity == "load_plus")
     assert effect.uncertainty is None
     known["reynolds"] = carrying(results["reynolds"], "load_plus", 0.0088)
-    (effect,) = (d for d in effects(MODELS, known) if d.quantity == "load_plus")
+    (effect,) = (d for d in effects(scene, MODELS, known) if d.quantity == "load_plus")
     assert effect.uncertainty == pytest.approx(0.01 * 2**0.5, rel=1e-2)
 
 
@@ -101,17 +106,17 @@ def test_errors_are_told_apart_where_their_intervals_do_not_overlap(error, other
     assert distinguished(other, error, uncertainty) is apart
 
 
-def test_models_within_the_uncertainty_of_the_reference_are_not_ranked(results):
+def test_models_within_the_uncertainty_of_the_reference_are_not_ranked(scene, results):
     """Reynolds has no load (an error of 100 %), inertial_reynolds is off by 1 %."""
-    assert undecided(MODELS, results)["load_plus"] == (
+    assert undecided(scene, MODELS, results)["load_plus"] == (
         ("reynolds", "inertial_reynolds"),
         ("reynolds", "film"),
         ("inertial_reynolds", "film"),
     )
     coarse = {**results, "film": carrying(results["film"], "load_plus", 0.01 * 0.88)}
-    assert undecided(MODELS, coarse)["load_plus"] == (("inertial_reynolds", "film"),)
+    assert undecided(scene, MODELS, coarse)["load_plus"] == (("inertial_reynolds", "film"),)
     fine = {**results, "film": carrying(results["film"], "load_plus", 1e-4 * 0.88)}
-    assert "load_plus" not in undecided(MODELS, fine)
+    assert "load_plus" not in undecided(scene, MODELS, fine)
 
 
 def test_the_front_leaves_out_what_the_reference_does_not_tell_apart():

@@ -51,7 +51,15 @@ def test_models():
     told = json.loads(result.stdout)["models"]
     names = {kind: [model["name"] for model in told if model["kind"] == kind] for kind in ("pocket", "dry_contact")}
     assert names == {
-        "pocket": ["reynolds", "inertial_reynolds", "film", "film_slope", "stokes", "navier_stokes"],
+        "pocket": [
+            "reynolds",
+            "inertial_reynolds",
+            "reynolds_cavitating",
+            "film",
+            "film_slope",
+            "stokes",
+            "navier_stokes",
+        ],
         "dry_contact": ["greenwood_williamson", "bearing_area", "persson", "elastic", "elastic_plastic"],
     }
     assert "inertial" in run("models").stdout

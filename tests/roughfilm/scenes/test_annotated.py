@@ -10,6 +10,7 @@ import roughfilm as rf
 from roughfilm.cli.main import app
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.ladder.kind import kind_names
+from roughfilm.rom.pocket.plan.dimples import SHAPES
 from roughfilm.scenes.annotated import annotated_scene, variants
 
 MODELS = {
@@ -85,3 +86,12 @@ def test_the_command_prints_a_scene_or_the_list_of_them():
     listed = run(app, ["new"]).stdout
     assert all(f"{kind}/{variant}" in listed for kind, variant in ALL)
     assert run(app, ["new", "oval"]).exit_code == 2
+
+
+def test_a_cell_in_plan_shows_the_keys_of_every_shape_of_a_dimple():
+    text = annotated_scene("pocket", "dimple")
+    shapes = re.findall(r'^(# )?shape = "(\w+)"', text, flags=re.MULTILINE)
+    assert shapes[0] == ("", "spherical")
+    assert {name for _, name in shapes} == {*SHAPES}
+    assert text.count("[[geometry.dimples]]") == len(SHAPES)
+    assert '# width = "0.3 mm"' in text  # that of the dimple above, so that the comment may be written

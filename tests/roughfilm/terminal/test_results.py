@@ -15,6 +15,7 @@ CASES = {
     "washer": ("reynolds_cavitating", 32),
     "parabolic_slider": ("reynolds_cavitating", 256),
     "pocket": ("reynolds", None),
+    "dimple": ("reynolds_cavitating", 16),
     "dry_contact": ("persson", None),
     "seal": ("effective_medium", None),
     "rough_gap": ("smooth_gap", None),

@@ -163,6 +163,69 @@ def test_the_load_grows_with_the_reynolds_number_and_vanishes_without_inertia() 
     assert values["by_slope"] == pytest.approx(0.005, abs=5e-4)
 
 
+def test_cavitation_begins_at_its_pressure_and_opposes_inertia() -> None:
+    values = values_of("pockets/inertia_and_cavitation")
+    speeds, load = values["speeds"], values["load"]
+    assert np.abs(load["reynolds"]).max() < 1e-9
+    assert load["film_slope"][1] / load["film_slope"][0] == pytest.approx(2.5**2, rel=0.01)
+    falls = 13.05  # kPa for each m/s: 652.5 kPa at 50 m/s by quadrature
+    assert ((values["ruptured"] > 0) == (falls * speeds > 101.325)).all()
+    whole = values["ruptured"] == 0
+    assert load["reynolds_cavitating"][whole] == pytest.approx(0, abs=1e-9)
+    assert values["cavitation"] == pytest.approx(-32.327, abs=2e-3)  # by quadrature between rupture and reformation
+    assert values["inertia"] == pytest.approx(38.2, abs=0.1)
+
+
+def test_dimples_cover_what_their_shapes_cover() -> None:
+    covered = values_of("pockets/shapes_of_dimples")["covered"]
+    expected = {
+        "spherical": np.pi / 4 * 0.5**2,
+        "ellipsoidal": np.pi / 4 * 0.5 * 0.8,
+        "conical": np.pi / 4 * 0.5**2,
+        "box": 0.5 * 0.7,
+        "chevron": 0.25 * 0.8,
+        "groove": 0.5,
+        "points": 0.7**2,
+    }
+    assert covered == pytest.approx(expected, abs=6e-3)
+
+
+def test_a_dimple_carries_by_inertia_alone_what_openfoam_finds() -> None:
+    values = values_of("pockets/dimple_over_reynolds_number")
+    load, numbers = values["load"], values["numbers"]
+    assert np.abs(load["reynolds"]).max() < 1e-9
+    assert load["inertial_reynolds"] == pytest.approx(numbers * load["inertial_reynolds"][0], rel=1e-9)
+    assert load["film"][0] == pytest.approx(load["inertial_reynolds"][0], rel=0.02)
+    assert load["film_slope"][-1] == pytest.approx(0.6777, rel=0.01)  # navier_stokes on 96 columns
+    friction = values["friction"]["film_slope"][-1]
+    assert friction == pytest.approx(2.9829, abs=2e-4)  # the same
+    assert friction / values["friction"]["reynolds"][-1] - 1 == pytest.approx(3e-4, abs=1e-4)
+    assert values["first_order_too_high"] == pytest.approx(0.05, abs=5e-3)
+    assert values["by_slope"] == pytest.approx(-0.007, abs=2e-3)
+
+
+def test_a_dimple_carries_less_than_a_groove_per_area_and_a_short_one_more_per_volume() -> None:
+    values = values_of("pockets/dimple_and_groove")
+    assert (np.diff(values["over_area"]) < 0).all()
+    assert values["over_area"][[0, -1]] == pytest.approx([0.93, 0.81], abs=0.01)
+    assert values["over_volume"][[0, -1]] == pytest.approx([1.24, 1.08], abs=0.01)
+
+
+def test_staggered_dimples_save_more_friction_where_they_are_close() -> None:
+    saved = {name: np.array(values) for name, values in values_of("pockets/staggered_dimples")["saved"].items()}
+    more = saved["staggered"] / saved["aligned"] - 1
+    assert (np.diff(more) < 0).all()
+    assert more[0] == pytest.approx(0.076, abs=0.01)
+    assert (np.abs(more[3:]) < 0.02).all()
+
+
+def test_the_load_of_one_flow_depends_on_the_place_of_zero_pressure() -> None:
+    values = values_of("pockets/zero_of_pressure")
+    assert values["ratio"] == pytest.approx(3.5, abs=0.05)
+    found = [1e-3 * values["load"][place] for place in ("corner", "mean of the edge", "middle of the edge")]
+    assert found == pytest.approx([1.890, 4.016, 6.653], rel=0.01)  # navier_stokes on 96 columns
+
+
 def test_wider_grooves_have_deeper_optima_in_the_range_of_the_source() -> None:
     best = np.array(values_of("pockets/best_depth")["best"])
     assert (np.diff(best) > 0).all()
@@ -266,6 +329,15 @@ def test_films_under_load_lie_on_the_curve_of_butenschoen() -> None:
     assert np.exp(table(1 - gap)) / gap**1.5 * values["unit"] == pytest.approx(values["forces"], rel=0.01)
     assert values["films"][4] == pytest.approx(10.3e-6, abs=0.05e-6)
     assert values["films"][0] / values["films"][-1] == pytest.approx(12.5, abs=0.1)
+
+
+def test_inertia_takes_load_from_a_pad_where_the_flow_leaves_the_walls_of_its_grooves() -> None:
+    values = values_of("bearings/inertia_in_a_pad")
+    change, reduced = values["change"]["film_slope"], values["numbers"] / values["aspect"]
+    assert np.abs(change[reduced < 3.2]).max() < 0.01
+    assert (change[reduced > 6] < -0.03).all()
+    assert change[-1] == pytest.approx(-0.21, abs=0.005)
+    assert (values["change"]["film"][reduced < 3.2] > 0).all()
 
 
 def test_a_starved_inlet_takes_what_it_is_given() -> None:

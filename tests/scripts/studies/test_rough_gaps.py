@@ -15,17 +15,17 @@ from roughfilm.contact.synthetic.sinusoids import sinusoid
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.rough_gap.flow.exact import sinusoidal_ridge_flow
+from scripts.studies import runs as studies_runs
 from scripts.studies.rough_gaps import __main__ as rough_gaps
 from scripts.studies.rough_gaps import inertia as rough_gaps_inertia
-from scripts.studies.rough_gaps import runs as rough_gaps_runs
 from scripts.studies.rough_gaps.claims import judge, words
 from scripts.studies.rough_gaps.data import asked_of, compare, resolved, values_of
 from scripts.studies.rough_gaps.map import ModelErrors, serves
 from scripts.studies.rough_gaps.range_of_validity import ReynoldsError, SurfaceValidity, coarse, off, reach
-from scripts.studies.rough_gaps.runs import ModelRun, answers
 from scripts.studies.rough_gaps.scenes import over_random, over_waves, peak_over_rms
 from scripts.studies.rough_gaps.study import RoughGapStudy, bounds_hold, mesh_meets_exact
 from scripts.studies.rough_gaps.waves import Waves, bare_coefficient, thin_ratios, waves
+from scripts.studies.runs import ModelRun, answers
 
 DESCRIPTION = """
 kind = "gaussian"
@@ -197,7 +197,7 @@ def test_answers_are_used_again_and_failures_are_told(tmp_path, monkeypatch):
     assert len(found) == 2
     assert not failed
     assert all(one.fields == {} for one in found.values())
-    monkeypatch.setattr(rough_gaps_runs, "run", None)
+    monkeypatch.setattr(studies_runs, "run", None)
     again, _ = answers(asked, tmp_path, here)
     assert {key: one.quantities for key, one in again.items()} == {key: one.quantities for key, one in found.items()}
     monkeypatch.undo()

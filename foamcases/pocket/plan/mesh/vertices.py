@@ -21,6 +21,9 @@ LEAST_SHARE = 0.05
 LEAST_AREA = 0.1
 """Least ratio of areas in the plane of coordinates and in space in a Newton step."""
 
+SAMPLES_PER_LAYER = 3
+"""Number of places for each layer at which a column is followed."""
+
 STEPS = 30
 """Largest number of Newton steps in which a column is followed from one layer to the next."""
 
@@ -49,27 +52,47 @@ def vertices_of(plan: Plan, resolution: int) -> Array:
         return np.asarray(plan.thickness(x * film, y * film) / film)
 
     grid = np.stack(np.meshgrid(sides.x, sides.y, indexing="ij"), axis=-1)
-    lean = _lean(harmonic(sides.x, sides.y, thickness(grid[..., 0], grid[..., 1])), grid, layers)
+    columns = _columns(harmonic(sides.x, sides.y, thickness(grid[..., 0], grid[..., 1])), grid, layers)
+    vertical = np.zeros_like(columns)
+    vertical[..., 2] = np.linspace(1, 0, layers + 1)
     share = np.full(grid.shape[:2], LEAN)
     while True:
-        vertices = np.empty((*grid.shape[:2], layers + 1, 3))
-        places = _periodic(grid[:, :, None] + share[..., None, None] * lean, sides, mirrored=plan.mirrored)
-        vertices[..., :2] = places
-        vertices[..., 2] = 1 - np.linspace(1, 0, layers + 1) * thickness(places[..., 0], places[..., 1])
+        taken = vertical + share[..., None, None] * (columns - vertical)
+        vertices = _periodic(
+            np.concatenate([grid[:, :, None] + taken[..., :2], taken[..., 2:]], axis=-1), sides, mirrored=plan.mirrored
+        )
+        vertices[..., 2] = 1 - vertices[..., 2] * thickness(vertices[..., 0], vertices[..., 1])
         folded: Mask = np.asarray(~upright(vertices).all(axis=2))
         if not folded.any():
             return vertices
         share = _straightened(share, folded)
 
 
-def _lean(coordinates: Coordinates, grid: Array, layers: int) -> Array:
-    """The displacements of columns along x and y from the sliding wall down, shape (nx + 1, ny + 1, layers + 1, 2)."""
-    target = grid + coordinates.displacement(0.0)
-    found, places = np.zeros((*grid.shape[:2], layers + 1, 2)), grid
-    for layer in range(layers - 1, -1, -1):
-        places = _followed(coordinates, 1 - layer / layers, target, places)
-        found[:, :, layer] = places - grid
-    return found
+def _columns(coordinates: Coordinates, grid: Array, layers: int) -> Array:
+    """The columns at the layers: displacements along x and y, and s = (1 - z)/h; shape (nx + 1, ny + 1, layers + 1, 3).
+
+    A column is followed from the sliding wall down at more places than there are layers, and divided evenly in ζ by
+    linear interpolation between them.
+    """
+    target, places = grid + coordinates.displacement(0.0), grid
+    samples = np.linspace(0, 1, SAMPLES_PER_LAYER * layers + 1)
+    found, heights = np.zeros((*grid.shape[:2], samples.size, 3)), np.ones((*grid.shape[:2], samples.size))
+    for number, s in enumerate(samples[1:], 1):
+        places = _followed(coordinates, s, target, places)
+        found[:, :, number, :2], found[:, :, number, 2] = places - grid, s
+        heights[:, :, number] = _bilinear(coordinates, coordinates.height(s), places)[0][..., 0]
+    heights = np.minimum.accumulate(heights, axis=2)
+    heights[:, :, -1] = 0
+    columns = np.zeros((*grid.shape[:2], layers + 1, 3))
+    columns[:, :, 0] = found[:, :, -1]
+    for layer in range(1, layers):
+        height = layer / layers
+        above = np.clip((heights > height).sum(axis=2) - 1, 0, samples.size - 2)[..., None]
+        high, low = (np.take_along_axis(heights, above + step, axis=2) for step in (0, 1))
+        part = np.divide(high - height, high - low, out=np.zeros_like(high), where=high > low)
+        upper, lower = (np.take_along_axis(found, (above + step)[..., None], axis=2)[:, :, 0] for step in (0, 1))
+        columns[:, :, layer] = upper + part * (lower - upper)
+    return columns
 
 
 def _straightened(share: Array, folded: Mask) -> Array:
@@ -118,12 +141,12 @@ def _bilinear(coordinates: Coordinates, values: Array, places: Array) -> tuple[A
 
 
 def _periodic(places: Array, sides: Sides, *, mirrored: bool) -> Array:
-    """Positions, (nx + 1, ny + 1, ..., 2), with exact copies at the ends of the period; symmetric if ``mirrored``."""
+    """Positions, (nx + 1, ny + 1, ..., 3), with exact copies at the ends of the period; symmetric if ``mirrored``."""
     length, breadth = (side[-1] - side[0] for side in (sides.x, sides.y))
     if mirrored:
-        places = (places + places[:, ::-1] * np.array([1, -1])) / 2
+        places = (places + places[:, ::-1] * np.array([1, -1, 1])) / 2
         for row in (0, places.shape[1] // 2):
             places[:, row, ..., 1] = sides.y[row]
-    places[-1], places[:, -1] = places[0] + [length, 0], places[:, 0] + [0, breadth]
-    places[-1, -1] = places[0, 0] + [length, breadth]
+    places[-1], places[:, -1] = places[0] + [length, 0, 0], places[:, 0] + [0, breadth, 0]
+    places[-1, -1] = places[0, 0] + [length, breadth, 0]
     return places

@@ -104,7 +104,15 @@ def test_a_killed_comparison_leaves_whole_results_and_goes_on(killed):
 def test_the_whole_ladder_in_one_self_contained_page(killed):
     entries = killed.entries
     assert entries["model"] == "navier_stokes"
-    names = ["reynolds", "inertial_reynolds", "film", "stokes", "film_slope", "navier_stokes"]
+    names = [
+        "reynolds",
+        "reynolds_cavitating",
+        "inertial_reynolds",
+        "film",
+        "stokes",
+        "film_slope",
+        "navier_stokes",
+    ]
     assert names == [model.name for model in models("pocket")]
     costs = [(part["numerics"]["cpu_s"], part["model"]) for part in entries["models"]]
     assert {name for _, name in costs} == set(names)
@@ -112,6 +120,7 @@ def test_the_whole_ladder_in_one_self_contained_page(killed):
     named = {(d["other"], d["model"], d["effect"]) for d in entries["differences"] if d["effect"]}
     assert ("stokes", "navier_stokes", "inertia") in named
     assert ("film", "navier_stokes", "slope") in named
+    assert ("reynolds", "reynolds_cavitating", "cavitation") in named
     assert entries["cheapest_within_10_percent"] == "inertial_reynolds"
     page = read_page(killed.out / "report.html")
     assert all(place.startswith("data:image/png;base64,") for place in page.outside)
@@ -119,7 +128,7 @@ def test_the_whole_ladder_in_one_self_contained_page(killed):
     found = entries["convergence"]["navier_stokes"]["load_plus"]
     assert (found["kind"], found["grids"]) == ("monotone", [60, 120, 240])
     assert found["value"] == pytest.approx(3.303, abs=found["uncertainty"])
-    assert set(entries["convergence"]) == {"film", "film_slope", "stokes", "navier_stokes"}
+    assert set(entries["convergence"]) == {"reynolds_cavitating", "film", "film_slope", "stokes", "navier_stokes"}
     assert entries["convergence"]["stokes"]["load_plus"]["kind"] == "at round-off"
     if rendering.probe().available:
         assert page.tags.count("img") == 1

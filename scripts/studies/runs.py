@@ -1,4 +1,4 @@
-"""Runs of the models for the report on rough gaps: each solved once, in parallel, and stored when it is done."""
+"""Runs of models for a study: each solved once, in parallel, and stored when it is done."""
 
 import hashlib
 import json
@@ -15,10 +15,10 @@ from roughfilm.batch.execute import Solved, Workers, run
 from roughfilm.batch.executors import local
 from roughfilm.batch.jobs import Failure, Job, store, stored
 from roughfilm.ladder import find
+from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.setting import Setting
-from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.terminal.console import messages, progress_bar
 
 FOUND = "found"
@@ -27,9 +27,9 @@ FOUND = "found"
 
 @dataclass(frozen=True, kw_only=True)
 class ModelRun:
-    """A run: a gap, a model, and the number of nodes along the longer side."""
+    """A run: a scene, a model, and its resolution."""
 
-    scene: RoughGap
+    scene: Scene
     model: str
     resolution: int
 
@@ -55,7 +55,7 @@ def answers(asked: Sequence[ModelRun], folder: Path, place: Place = local) -> tu
     found: dict[str, Result] = {}
     missing: dict[Path, tuple[str, Job]] = {}
     for one in {each.key: each for each in asked}.values():
-        model = find("rough_gap", one.model)
+        model = find(one.scene.kind, one.model)
         available = model.available()
         if not available.available:
             failed[one.key] = available.detail
