@@ -128,7 +128,8 @@ def _inertia(scene: Pocket, found: _Films | None, quantity: str) -> Omission:
         if quantity == "friction_plus":
             change *= (1 + scene.depth) * scene.geometry.film / scene.geometry.length
         part = _over(change, found, quantity)
-    changed = f"change the {TITLES[quantity]} by up to {percent(part)}" if part < inf else "have an unknown effect here"
+    amount = "more than 100 %" if part > 1 else f"up to {percent(part)}"
+    changed = f"change the {TITLES[quantity]} by {amount}" if part < inf else "have an unknown effect here"
     return Omission(
         part=part,
         reason=f"inertia and slope, which reynolds_cavitating leaves out, {changed}",
