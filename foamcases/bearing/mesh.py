@@ -5,7 +5,7 @@ of the steps s(x), h = c + s with min s = 0. Layers follow y = -c(x) and, below 
 the steps; the cells below the wall are left out.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,9 @@ MAX_SLOPE = 0.5
 
 MIN_FILM = 0.1
 """Least continuous part of the film thickness beside steps, over the film."""
+
+MAX_END_CELL = 0.3
+"""Length of a column at the default resolution, in film thicknesses, above which ends get denser columns."""
 
 SAME_HEIGHT = 1e-6
 """Difference of heights over the film below which two steps are equal, and of positions below which two are one."""
@@ -87,11 +90,25 @@ def plane_of(scene: Bearing, resolution: int) -> Plane:
     InputError
         If cells of the mesh fold, or a cell lies over several steps.
     """
-    gap, layers = pad_gap(scene), layers_of(scene, resolution)
+    gap, layers = _with_ends(pad_gap(scene), default_columns(scene)), layers_of(scene, resolution)
     if steps(gap):
         return _stepped(gap, resolution, layers)
     vertices = between_ends(gap, resolution, layers)
     return Plane(vertices=vertices, lowest=np.zeros(vertices.shape[0] - 1, dtype=np.int64))
+
+
+def _with_ends(gap: Gap, default: int) -> Gap:
+    """The gap with a corner at its ends, beside which columns are dense, where the flow needs them.
+
+    The flow enters developed, and adapts to a wall that is inclined there within a film thickness. ``default`` is the
+    default number of columns.
+    """
+    beside = np.array([0.0, gap.film])
+    ends = gap.thickness(np.concatenate([gap.breaks[0] + beside, gap.breaks[-1] - beside])).reshape(2, 2)
+    inclined = np.abs(np.diff(ends)).max() > SAME_HEIGHT * gap.film
+    if not inclined or gap.length / gap.film <= MAX_END_CELL * default:
+        return gap
+    return replace(gap, corners=(gap.breaks[0], *gap.corners))
 
 
 def step_obstacle(scene: Bearing) -> str | None:

@@ -19,14 +19,16 @@ PLAN_COLUMNS = Resolutions(least=12, most=400, default=96, series=(24, 48, 96))
 def cost(scene: Pocket, resolution: int) -> float:
     """Expected CPU seconds of one run.
 
-    They are 0.3 + 2.4 (resolution / 240)^2.4 for grooves, measured with 60 to 480 columns, and 0.4 + 1.25e-5 · cells ·
-    layers in plan, measured with 24 to 144 columns of square cells; the cells of half a cell if it is symmetric.
+    They are 0.3 + 2.4 (resolution / 240)^2.4 for grooves, measured with 60 to 480 columns. In plan they are
+    0.4 + 1.25e-5 · cells · layers for the flow, with the cells of half a cell in plan if it is symmetric, and
+    1.6e-5 · columns^1.35 for the mesh, measured with 24 to 144 columns of square cells.
     """
     if not scene.in_plan:
         return float(0.3 + 2.4 * (resolution / 240) ** 2.4)
     plan, layers = scene.plan(), layers_of(resolution)
-    rows = resolution * plan.breadth / plan.length / (2 if plan.mirrored else 1)
-    return float(0.4 + 1.25e-5 * resolution * rows * layers**2)
+    columns = resolution**2 * plan.breadth / plan.length
+    solved = columns / (2 if plan.mirrored else 1)
+    return float(0.4 + 1.25e-5 * solved * layers**2 + 1.6e-5 * columns**1.35)
 
 
 def _writer(*, run: bool) -> CaseWriter[Pocket]:

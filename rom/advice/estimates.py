@@ -97,7 +97,7 @@ class AdviceTask:
 
     def step(self, model: Model) -> Step | None:
         """The step from a model to the next one that applies; None for the most complete model."""
-        return self.table.step(self.kind.name, model.name, {other.name for other in self.models})
+        return self.table.step(self.kind.name_of_laws, model.name, {other.name for other in self.models})
 
     def next(self, model: Model) -> Model | None:
         """The next more complete model; None for the most complete one."""
@@ -123,12 +123,15 @@ class AdviceTask:
         return law.error(numbers, RESOLVING) if law is not None and law.knows(numbers) else None
 
     def at_full_resolution(self, model: Model, resolution: int) -> bool:
-        """Whether a model without an order of convergence resolves all waves of the scene's surface."""
-        return model.order is None and resolution >= max(model.resolutions_of(self.scene))
+        """Whether a model without an order of convergence for the scene has its finest resolution.
+
+        It then resolves all waves of a surface, or integrates a film exactly but for rounding.
+        """
+        return model.order_of(self.scene) is None and resolution >= max(model.resolutions_of(self.scene))
 
     def grid_law(self, model: Model) -> Law | None:
         """The law of the error by the resolution of a model; None if there is none."""
-        return self.table.grid(self.kind.name, model.name, self.quantity)
+        return self.table.grid(self.kind.name_of_laws, model.name, self.quantity)
 
     def beyond_grids(self, model: Model, resolution: int) -> str | None:
         """The name of a number outside the range of the law over resolutions of a model; None if there is none."""
@@ -202,7 +205,7 @@ def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | No
     model without a promise, the uncertainty that it states for a run replaces the law over resolutions.
     """
     left = left_out(task, task.chain(model))
-    promised = task.quantity in task.table.promise(task.kind.name, model.name).laws
+    promised = task.quantity in task.table.promise(task.kind.name_of_laws, model.name).laws
     by_law = stated is None or promised
     grid = task.grid(model, resolution) if by_law else stated
     if left is None or grid is None:
@@ -247,7 +250,7 @@ def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], lis
     for place, model in enumerate(chain):
         if place < contained:
             continue
-        promise = task.table.promise(task.kind.name, model.name)
+        promise = task.table.promise(task.kind.name_of_laws, model.name)
         law = promise.laws.get(task.quantity)
         step = task.step(model)
         own = on_grid(task.numbers, model.resolution_of(task.scene))
@@ -359,7 +362,7 @@ def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estima
     by_laws = a_priori(task, model, resolution, own.error) if estimate.source == BY_LAWS else None
     if by_laws is not None and by_laws.sure:
         return replace(by_laws, error=max(by_laws.error, own.error), sure=estimate.sure, decides=True)
-    promised = task.quantity in task.table.promise(task.kind.name, model.name).laws
+    promised = task.quantity in task.table.promise(task.kind.name_of_laws, model.name).laws
     adds = not promised and "waves" in task.numbers and task.at_full_resolution(model, resolution)
     error = math.hypot(estimate.error, own.error) if adds else max(estimate.error, own.error)
     first = own if own.error > estimate.error else estimate

@@ -171,10 +171,10 @@ def _of_the_whole(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]
 
 def omitted(scene: Bearing, model: Any, quantity: str) -> Omission | None:
     """The effects that a model leaves out and the laws do not count; None if they are unknown, or no film converges."""
-    from roughfilm.rom.bearing.omission import omitted  # slow to import
+    from roughfilm.rom.bearing.omission import omission  # slow to import
 
     try:
-        return omitted(scene, model, quantity)
+        return omission(scene, model, quantity)
     except ConvergenceError:
         return None
 

@@ -133,7 +133,7 @@ def missing(scene: Bearing, model: Model[Bearing]) -> float:
     return sum(change("load_per_width") for effect, change in changes.items() if effect not in model.keeps)
 
 
-def omitted(scene: Bearing, model: Model[Bearing], quantity: str) -> Omission | None:
+def omission(scene: Bearing, model: Model[Bearing], quantity: str) -> Omission | None:
     """The relative change of a quantity by the effects that a model leaves out and the error laws do not count.
 
     Those of models without inertia are inertia, of models that resolve the flow across the film cavitation, of ``film``

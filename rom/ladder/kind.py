@@ -66,11 +66,6 @@ def within_laws(_scene: Any, _result: Any, _quantity: str) -> str:
     return ""
 
 
-def always_lawful(_entries: Mapping[str, Any]) -> bool:
-    """Return True, for kinds whose error laws hold for all their scenes."""
-    return True
-
-
 def nothing_composed(_scene: Any) -> tuple[str, ...]:
     """Return no lines, for kinds whose scenes are not composed of effects."""
     return ()
@@ -120,7 +115,9 @@ class Kind:
     compared_with : the compared quantities of scenes that have a table, by the name of the table; the error laws do not
         hold for these scenes.
     lawful : whether the error laws hold; False for the kind of a scene with such a table.
-    lawful_for : lawful_for(entries), whether the error laws hold for a scene without such a table.
+    laws : name of the error laws of its scenes in the table of laws; "" for the name of the kind.
+    variants : by the name of their error laws, whether entries of a scene have these laws in place of those of the
+        kind.
     ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
@@ -158,7 +155,8 @@ class Kind:
     remarks: Callable[[Mapping[str, Any], Mapping[str, Quantity]], Sequence[str]] = nothing_remarked
     compared_with: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     lawful: bool = True
-    lawful_for: Callable[[Mapping[str, Any]], bool] = always_lawful
+    laws: str = ""
+    variants: Mapping[str, Callable[[Mapping[str, Any]], bool]] = field(default_factory=dict)
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
@@ -184,19 +182,26 @@ class Kind:
         width is left out where that of the whole width is there. Quantities without a title have their name as the
         title, and come last.
         """
-        entries = result.provenance["scene"]
-        seeks = any(entries.get(table) is not None for table in self.compared_with)
-        first = tuple(self.of(entries).compared)[:1] if seeks else ()
+        own = self.of(result.provenance["scene"])
+        first = () if own.compared == self.compared else tuple(own.compared)[:1]
         names, whole = result.quantities, {f"{name}_per_width" for name in result.quantities}
         ordered = dict.fromkeys((*first, *self.reported, *names))
         return {name: self.reported.get(name, name) for name in ordered if name in names and name not in whole}
 
     def of(self, entries: Mapping[str, Any]) -> "Kind":
-        """The kind with the compared quantities of a scene, from its entries by the names of their tables."""
+        """The kind with the compared quantities and the laws of a scene, from its entries by the names of tables."""
+        own = next((name for name, belongs in self.variants.items() if belongs(entries)), "")
+        if own:
+            return replace(self, laws=own, variants={}).of(entries)
         for table, compared in self.compared_with.items():
             if entries.get(table) is not None:
                 return self._comparing(compared)
-        return self if self.lawful_for(entries) else replace(self, lawful=False)
+        return self
+
+    @property
+    def name_of_laws(self) -> str:
+        """The name of the error laws of its scenes in the table of laws."""
+        return self.laws or self.name
 
     def seeking(self, quantity: str) -> "Kind":
         """The kind of scenes that ask for a quantity by a table of their own, such as the film under a load."""
@@ -240,6 +245,16 @@ def kind_of_name(name: str) -> Kind:
         raise KeyError(name)
     kind: Kind = importlib.import_module(f"{rom.__name__}.{name}.kind").KIND
     return kind
+
+
+def kind_of_laws(name: str) -> Kind:
+    """The kind whose scenes have the error laws of a name; KeyError if there is none."""
+    if name in kind_names():
+        return kind_of_name(name)
+    for kind in kinds().values():
+        if name in kind.variants:
+            return replace(kind, laws=name, variants={})
+    raise KeyError(name)
 
 
 def kinds() -> Mapping[str, Kind]:

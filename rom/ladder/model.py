@@ -144,7 +144,8 @@ class Model(Generic[SceneT]):
     resolutions : allowed and default resolutions, or a function of the scene that returns them.
     resolution_meaning : the things that the resolution counts, in words.
     residual_meaning : the error that the residual measures, in words.
-    order : order of load and friction in the resolution; None for a spectral method.
+    order : order of load and friction in the resolution; None for a spectral method; or a function of the scene that
+        returns it.
     tolerance : default residual at which its solver stops.
     tolerances : least and greatest tolerance allowed.
     schemes : advection schemes that it offers, the default first; empty where there is no choice.
@@ -166,7 +167,7 @@ class Model(Generic[SceneT]):
     resolutions: Resolutions | Callable[[SceneT], Resolutions]
     resolution_meaning: str
     residual_meaning: str
-    order: int | None
+    order: int | None | Callable[[SceneT], int | None]
     tolerance: float
     tolerances: tuple[float, float] = (1e-13, 1.0)
     schemes: tuple[str, ...] = ()
@@ -263,6 +264,10 @@ class Model(Generic[SceneT]):
     def offered(self, scene: SceneT) -> Resolutions:
         """The allowed and default resolutions for a scene."""
         return self.resolutions if isinstance(self.resolutions, Resolutions) else self.resolutions(scene)
+
+    def order_of(self, scene: SceneT) -> int | None:
+        """The order of load and friction in the resolution for a scene; None for a spectral method."""
+        return self.order(scene) if callable(self.order) else self.order
 
     def resolutions_of(self, scene: SceneT) -> tuple[int, ...]:
         """The resolutions for charts and studies of a scene, from coarse to fine."""

@@ -18,7 +18,7 @@ from roughfilm.rom.ladder.sweeping import Columns, Sweeping
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
 from roughfilm.rom.pocket.plan.dimples import SHAPES
 from roughfilm.rom.pocket.plan.geometry import PlanGeometry
-from roughfilm.rom.pocket.scene import GROOVES, IN_PLAN, TITLES, Pocket, geometry_tag
+from roughfilm.rom.pocket.scene import GROOVES, IN_PLAN, LAWS_IN_PLAN, TITLES, Pocket, in_plan
 from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
 
 COMPARED = ("load_plus", "friction_plus")
@@ -157,11 +157,6 @@ def outside_laws(scene: Pocket, result: Result, quantity: str) -> str:
     return next(iter(cancellations(scene, load=load, lowest=lowest, highest=highest)), "")
 
 
-def lawful_for(entries: Mapping[str, Any]) -> bool:
-    """Whether the error laws hold for a scene: they were fitted to grooves, and do not for cells in plan."""
-    return geometry_tag(entries["geometry"]) == GROOVES
-
-
 def _length(text: str) -> float:
     return float(text.partition(" ")[0])
 
@@ -217,7 +212,7 @@ KIND = Kind(
     omitted=omitted,
     missing=missing,
     outside_laws=outside_laws,
-    lawful_for=lawful_for,
+    variants={LAWS_IN_PLAN: in_plan},
     files=frozenset({"points"}),
     replaces={
         "motion.speed": ("reynolds_number",),

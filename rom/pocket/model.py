@@ -135,7 +135,7 @@ def quadrature_model(*, applies: Callable[[Pocket], Applicability], **about: Unp
         resolutions=in_plan_or_not(Resolutions(least=MIN_NODES, most=MAX_NODES, default=NODES, series=NODE_SERIES)),
         resolution_meaning=f"{QUADRATURE_RESOLUTION_MEANING}; {PLAN_RESOLUTION_MEANING}",
         residual_meaning=f"{QUADRATURE_RESIDUAL_MEANING}; {PLAN_RESIDUAL_MEANING}",
-        order=None,
+        order=lambda scene: 2 if scene.in_plan else None,
         tolerance=QUADRATURE_RESIDUAL_TOLERANCE,
         tolerances=(1e-300, 1.0),
         cost=lambda scene, resolution: 1e-3 + 3e-6 * resolution**2 if scene.in_plan else 2e-4 + 1e-7 * resolution**2,

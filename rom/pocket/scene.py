@@ -1,5 +1,6 @@
 """The scene of a pocket: grooves or dimples under a sliding wall."""
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
@@ -63,6 +64,15 @@ def geometry_tag(entries: Any) -> str:
     if isinstance(entries, dict):
         return IN_PLAN if {"breadth", "dimples", "arrangement"} & entries.keys() else GROOVES
     return IN_PLAN if isinstance(entries, PlanGeometry) else GROOVES
+
+
+LAWS_IN_PLAN = "pocket_in_plan"
+"""Name of the error laws of cells in plan in the table of laws."""
+
+
+def in_plan(entries: Mapping[str, Any]) -> bool:
+    """Whether entries of a scene, of which the geometry may be read already, are a cell in plan."""
+    return geometry_tag(entries.get("geometry")) == IN_PLAN
 
 
 AnyGeometry = Annotated[

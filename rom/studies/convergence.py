@@ -8,7 +8,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.ladder.kind import kind_of
+from roughfilm.rom.ladder.kind import Scene, kind_of
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.studies.comparison import scale
@@ -157,8 +157,8 @@ def _kind_and_order(sizes: Array, steps: Array, formal_order: int | None) -> tup
     return ConvergenceKind.MONOTONE, float(brentq(excess, MIN_ORDER, MAX_ORDER))
 
 
-def convergence(model: Model, runs: Sequence[Result]) -> Mapping[str, Convergence]:
-    """The convergence of each compared quantity over the runs of a model; empty for fewer than two grids.
+def convergence(model: Model, runs: Sequence[Result], scene: Scene) -> Mapping[str, Convergence]:
+    """The convergence of each compared quantity over the runs of a model on a scene; empty for fewer than two grids.
 
     The error of the iterative solution is estimated as the residual of the finest run times the scale of the quantity.
     """
@@ -169,7 +169,7 @@ def convergence(model: Model, runs: Sequence[Result]) -> Mapping[str, Convergenc
         quantity: converge(
             [run.numerics.resolution for run in own],
             [run.quantities[quantity].value for run in own],
-            formal_order=model.order,
+            formal_order=model.order_of(scene),
             noise=own[-1].numerics.residual * scale(own[-1], quantity),
         )
         for quantity in kind_of(own[-1]).shared(*own)

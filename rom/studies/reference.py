@@ -123,7 +123,7 @@ def _by_grids(sweep: Sweep, setting: str, grids: Sequence[str], model: Model, qu
             found[case] = converge(
                 resolutions,
                 [values[n] for n in resolutions],
-                formal_order=model.order,
+                formal_order=None if callable(model.order) else model.order,
                 noise=sweep.residual[setting][case] * size[case],
             ).uncertainty
     return found

@@ -200,7 +200,7 @@ def jobs_of(scene: Scene, models: Sequence[Model], directory: Path, grids: int =
     settings = []
     for model in models:
         default = model.resolution_of(scene)
-        finer = [default * 2**k for k in range(1, grids - GRIDS + 1)] if model.order else []
+        finer = [default * 2**k for k in range(1, grids - GRIDS + 1)] if model.order_of(scene) else []
         others = [n for n in (*model.resolutions_of(scene), *finer) if n != default]
         settings += [Setting(model=model, resolution=resolution) for resolution in (None, *others)]
     return [Job(scene=scene, setting=setting, path=directory / f"{setting.name}.h5") for setting in settings]

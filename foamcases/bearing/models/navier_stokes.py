@@ -4,14 +4,14 @@ from roughfilm.foamcases.bearing.model import CASES, SOURCES, pad_applies
 from roughfilm.foamcases.bearing.units import reynolds_number
 from roughfilm.foamcases.openfoam.model import openfoam_model
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.wide_pad.gap import inertia_obstacle
+from roughfilm.rom.bearing.wide_pad.gap import thin_film_obstacle
 from roughfilm.rom.ladder.model import Applicability, Effect
 
 
 def applies(scene: Bearing) -> Applicability:
     """Whether the scene is an infinitely wide pad that has a mesh, with a density."""
     if scene.lubricant.density is None:
-        return Applicability(applies=False, reason=str(inertia_obstacle(scene)))
+        return Applicability(applies=False, reason=str(thin_film_obstacle(scene)))
     return pad_applies(scene, left_out="leaves out cavitation and side flow")
 
 

@@ -100,6 +100,7 @@ def write_case(
         columns=resolution,
         layers=layers,
         rows=rows,
+        steps=(plan.length / plan.film / resolution, plan.breadth / plan.film / rows),
         mirrored=plan.mirrored,
         judged=judged_of(vertices),
         reynolds_number=reynolds_number,

@@ -65,7 +65,7 @@ def pad_obstacle(scene: Bearing) -> str | None:
     return None
 
 
-def inertia_obstacle(scene: Bearing) -> str | None:
+def thin_film_obstacle(scene: Bearing) -> str | None:
     """The reason for which inertia in the film of a bearing is not resolved; None for a pad where it is."""
     if scene.lubricant.density is None:
         return "the scene has no lubricant.density, on which inertia depends"

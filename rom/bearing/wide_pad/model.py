@@ -4,7 +4,7 @@ from typing import Unpack
 
 from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.wide_pad.gap import inertia_obstacle
+from roughfilm.rom.bearing.wide_pad.gap import thin_film_obstacle
 from roughfilm.rom.ladder.model import About, Applicability, Model, Resolutions
 
 DEFAULT_CELLS = 400
@@ -42,7 +42,7 @@ def wide_pad_model(*, left_out: str, **about: Unpack[About]) -> Model[Bearing]:
     """
 
     def applies(scene: Bearing) -> Applicability:
-        obstacle = inertia_obstacle(scene)
+        obstacle = thin_film_obstacle(scene)
         return Applicability(applies=obstacle is None, reason=obstacle or left_out)
 
     return Model(

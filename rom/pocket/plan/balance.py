@@ -59,10 +59,13 @@ class Balance:
         return np.asarray(values - self._constant * _product(self._constant, values))
 
     def _image(self, values: Array) -> Array:
-        along, across = self._east * np.roll(values, -1, axis=0), self._north * np.roll(values, -1, axis=1)
-        along += np.roll(self._east * values, 1, axis=0)
-        across += np.roll(self._north * values, 1, axis=1)
-        return np.asarray(values - along - across)
+        found = values.copy()
+        for coupling, own, image in ((self._east, values, found), (self._north.T, values.T, found.T)):
+            image[:-1] -= coupling[:-1] * own[1:]
+            image[1:] -= coupling[:-1] * own[:-1]
+            image[-1] -= coupling[-1] * own[0]
+            image[0] -= coupling[-1] * own[-1]
+        return np.asarray(found)
 
 
 def _product(one: Array, other: Array) -> float:

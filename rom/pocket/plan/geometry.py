@@ -1,6 +1,7 @@
 """The scene entries of a periodic cell with dimples in its fixed wall."""
 
 import math
+from functools import lru_cache
 from itertools import pairwise
 from typing import Annotated, Literal, Self
 
@@ -97,30 +98,23 @@ class PlanGeometry(Part):
 
     def depth_at(self, x: Array, y: Array) -> Array:
         """Depth below the land, m, at places in any period; ``x`` and ``y`` in m are broadcast."""
-        x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
-        deepest = np.zeros(x.shape)
+        x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+        deepest = np.zeros(np.broadcast_shapes(x.shape, y.shape))
         for one, middle_x, middle_y in self.places():
             rotation, depth = one.place[2], one.depth_function()
-            c, s = math.cos(rotation), math.sin(rotation)
             near_x = x - middle_x - self.length * np.round((x - middle_x) / self.length)
             near_y = y - middle_y - self.breadth * np.round((y - middle_y) / self.breadth)
-            deepest = np.maximum(deepest, depth(c * near_x + s * near_y, c * near_y - s * near_x))
+            if rotation:
+                c, s = math.cos(rotation), math.sin(rotation)
+                near_x, near_y = c * near_x + s * near_y, c * near_y - s * near_x
+            np.maximum(deepest, depth(near_x, near_y), out=deepest)
         return deepest
 
     def plan(self) -> Plan:
         """The gap between the wall with dimples and the sliding one."""
-        return Plan(
-            length=self.length,
-            breadth=self.breadth,
-            film=self.film,
-            thickness=lambda x, y: self.film + self.depth_at(x, y),
-            breaks_x=self._breaks(0),
-            breaks_y=self._breaks(1),
-            mirrored=self._mirrored(),
-            smallest=min(one.smallest for one in self.dimples),
-        )
+        return _plan_of(self)
 
-    def _breaks(self, axis: int) -> tuple[float, ...]:
+    def breaks(self, axis: int) -> tuple[float, ...]:
         """The edges and middles of the dimples along an axis, moved into the period, increasing."""
         side = (self.length, self.breadth)[axis]
         found = []
@@ -139,6 +133,20 @@ class PlanGeometry(Part):
         x, y = ((np.arange(number) + 0.37) / number - 0.5 for number in SAMPLES)
         return self.depth_at(self.length * x[:, None], sign * self.breadth * y)
 
-    def _mirrored(self) -> bool:
+    def is_mirrored(self) -> bool:
         """Whether the cell is its own mirror image about y = 0."""
         return bool(np.abs(self._sampled() - self._sampled(-1)).max() <= SAME * self.depth)
+
+
+@lru_cache(maxsize=8)
+def _plan_of(geometry: PlanGeometry) -> Plan:
+    return Plan(
+        length=geometry.length,
+        breadth=geometry.breadth,
+        film=geometry.film,
+        thickness=lambda x, y: geometry.film + geometry.depth_at(x, y),
+        breaks_x=geometry.breaks(0),
+        breaks_y=geometry.breaks(1),
+        mirrored=geometry.is_mirrored(),
+        smallest=min(one.smallest for one in geometry.dimples),
+    )

@@ -66,7 +66,9 @@ def columns_across(plan: Plan, resolution: int) -> int:
 
 def plan_grid(plan: Plan, counts: tuple[int, int]) -> PlanGrid:
     """The grid with so many columns along and across the cell."""
-    x, y = (np.linspace(-side / 2, side / 2, n + 1) for side, n in zip((plan.length, plan.breadth), counts, strict=True))
+    x, y = (
+        np.linspace(-side / 2, side / 2, n + 1) for side, n in zip((plan.length, plan.breadth), counts, strict=True)
+    )
     lattice_x, lattice_y = (
         faces[0] + (faces[-1] - faces[0]) * (np.arange(PARTS * n) / PARTS + 0.5) / n
         for faces, n in zip((x, y), counts, strict=True)

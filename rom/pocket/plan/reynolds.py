@@ -6,7 +6,14 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.pocket.plan.balance import Balance, outflow
-from roughfilm.rom.pocket.plan.grid import PARTS, PlanGrid, between_middles, places_between, running_means, within_columns
+from roughfilm.rom.pocket.plan.grid import (
+    PARTS,
+    PlanGrid,
+    between_middles,
+    places_between,
+    running_means,
+    within_columns,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,8 +36,9 @@ class Faces:
 def faces_of(grid: PlanGrid) -> Faces:
     """The means over the faces of a grid: along the flow in series, over the breadth of a face side by side."""
     inverse = 1 / grid.lattice
-    cube = inverse**3
-    one, two, three = (between_middles(values, 0) for values in (inverse, inverse**2, cube))
+    square = inverse * inverse
+    cube = square * inverse
+    one, two, three = (between_middles(values, 0) for values in (inverse, square, cube))
     east, drag, shear = (within_columns(values, 1) for values in (1 / three, two / three, 4 * one - 3 * two**2 / three))
     north = within_columns(1 / between_middles(cube, 1), 0)
     return Faces(east=east, north=north, drag=drag, shear=shear)
@@ -116,7 +124,9 @@ class Lines:
 def lines_of(grid: PlanGrid) -> Lines:
     """The lines of a grid, with the drive 6 ∫h⁻² dx of the sliding wall."""
     thickness = places_between(grid.lattice[:, ::PARTS])
-    opening, sliding = running_means(thickness**-3.0), running_means(thickness**-2.0)
+    inverse = 1 / thickness
+    square = inverse * inverse
+    opening, sliding = running_means(square * inverse), running_means(square)
     return Lines(thickness=thickness, opening=opening, drive=6 * grid.steps[0] * sliding)
 
 

@@ -24,7 +24,11 @@ SYMBOLS = {
     "cell_breadth": "B/L",
 }
 """Symbols of the numbers: h is the film, L its period, l the shortest piece of the wall, B the breadth of a cell; w, d
-and s are width, depth and shift of a groove."""
+and s are width, depth and shift of a groove. In plan w is the least extent of a dimple, and l that of a dimple or of
+the ramp or rounding at its rim."""
+
+COLUMNS = 64
+"""Number of columns along a cell in plan by which its load is computed."""
 
 MIN_ASYMMETRY = 1e-3
 """The asymmetry of a symmetric groove."""
@@ -40,7 +44,7 @@ MAX_SHORTNESS = 20.0
 def numbers(scene: Pocket) -> Mapping[str, float]:
     """The dimensionless numbers of the deepest, narrowest and steepest grooves or dimples.
 
-    Those of grooves contain the load to first order in Re. Those of a cell in plan contain the covered part of it.
+    They contain the load to first order in Re; those of a cell in plan also the covered part of it.
     """
     common = {
         "reynolds_number": scene.reynolds_number,
@@ -51,8 +55,16 @@ def numbers(scene: Pocket) -> Mapping[str, float]:
         "slope": scene.slope,
     }
     if scene.in_plan:
+        from roughfilm.rom.pocket.plan.level import load_over_pressure as load_in_plan  # slow to import
+
         plan = scene.plan()
-        return MappingProxyType({**common, "covered": scene.covered, "cell_breadth": plan.breadth / plan.length})
+        in_plan = {
+            "loaded": max(load_in_plan(scene, COLUMNS), MIN_LOAD_SCALE),
+            "shortness": min(plan.film / plan.smallest, MAX_SHORTNESS),
+            "covered": scene.covered,
+            "cell_breadth": plan.breadth / plan.length,
+        }
+        return MappingProxyType({**common, **in_plan})
     gap = scene.gap()
     found = {
         **common,

@@ -1,19 +1,14 @@
 """Warnings where no fitted law gives the error of a model of a pocket."""
 
 from roughfilm.rom.advice.laws import table
-from roughfilm.rom.pocket.scene import Pocket
+from roughfilm.rom.pocket.scene import LAWS_IN_PLAN, Pocket
 from roughfilm.rom.pocket.validity.numbers import SYMBOLS, numbers
 
 
 def promise_warnings(scene: Pocket, model: str) -> tuple[str, ...]:
-    """The warning where a number of a scene is outside the range to which the laws of a model were fitted.
-
-    The laws are those of grooves: there is no warning for a cell in plan.
-    """
-    if scene.in_plan:
-        return ()
-    own = numbers(scene)
-    for law in table().promise("pocket", model).laws.values():
+    """The warning where a number of a scene is outside the range to which the laws of a model were fitted."""
+    own, laws = numbers(scene), LAWS_IN_PLAN if scene.in_plan else scene.kind
+    for law in table().promise(laws, model).laws.values():
         if (name := law.beyond(own)) is not None:
             least, most = law.reach[name]
             return (

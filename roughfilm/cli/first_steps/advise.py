@@ -12,7 +12,7 @@ from roughfilm.ladder import models
 from roughfilm.rom.advice.advise import DEFAULT_TOLERANCE, Advice, ModelVerdict, Verdict, advise, shortfall, wanted
 from roughfilm.rom.advice.estimates import Estimate
 from roughfilm.rom.advice.laws import table as laws_table
-from roughfilm.rom.advice.stated import entries_of_errors, percent
+from roughfilm.rom.advice.stated import BY_LAWS, entries_of_errors, percent
 from roughfilm.rom.advice.window import window_note
 from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.scene import load_scene
@@ -94,7 +94,8 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     yield from (f"{one.model}: {one.verdict}: {one.why}" for one in advice.considered)
     yield from (f"  {line}" for line in kind.composed(scene))
     applying = [one for one in advice.considered if one.verdict is not Verdict.DOES_NOT_APPLY]
-    for reason in dict.fromkeys(omission.reason for omission in advice.omitted.values()):
+    measured = (omission for omission in advice.omitted.values() if omission.source != BY_LAWS)
+    for reason in dict.fromkeys(omission.reason for omission in measured):
         names = [name for name, omission in advice.omitted.items() if omission.reason == reason]
         yield f"{'all of them' if len(names) == len(applying) else ', '.join(names)}: {reason}"
     if note := window_note(scene, advice.within):
@@ -103,8 +104,9 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     if numbers:
         yield f"numbers of the scene: {', '.join(numbers)}"
     laws = laws_table().provenance
-    count = laws["fits"][kind.name]["scenes"]
-    yield f"{advice.spent_cpu_s:.2g} CPU s spent on the advice; laws: {count} random scenes, {laws['command']}"
+    fit = laws["fits"].get(kind.name_of_laws)
+    origin = f"{fit['scenes']} random scenes, {laws['command']}" if fit else "none are fitted to such scenes yet"
+    yield f"{advice.spent_cpu_s:.2g} CPU s spent on the advice; laws: {origin}"
     yield f"{scene.name}: {in_one_line(advice)}"
 
 

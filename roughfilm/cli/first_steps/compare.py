@@ -174,12 +174,12 @@ def _judge(
     view, titles = views()[scene.kind], kind_of_scene(scene).compared
     solved = [model for model in ladder if model.name in results]
     top = best_for(scene, solved)
-    grids = {model.name: convergence(model, runs) for model in solved}
+    grids = {model.name: convergence(model, runs, scene) for model in solved}
     results = {name: _with_grids(result, grids[name]) for name, result in results.items()}
     results = with_measured_errors(scene, ladder, results)
     results = dict(sorted(results.items(), key=lambda item: item[1].numerics.cpu_s))
     chart = points(results[top.name], runs)
-    studies = {model.name: grids[model.name] for model in solved if model.order and grids[model.name]}
+    studies = {model.name: grids[model.name] for model in solved if model.order_of(scene) and grids[model.name]}
     extrapolated = any(one.kind is ConvergenceKind.MONOTONE for study in studies.values() for one in study.values())
     floor = _uncertainty(results[top.name], grids[top.name])
     plots = {

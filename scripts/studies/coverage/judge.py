@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from roughfilm.rom.ladder.kind import kind_of_name
+from roughfilm.rom.ladder.kind import kind_of_laws
 from scripts.studies.coverage.store import Advised, Judged
 
 GOAL = (0.93, 0.98)
@@ -75,7 +75,7 @@ def findings(scenes: Sequence[Judged]) -> Iterator[Finding]:
     judged by the truth of the scene.
     """
     for one in scenes:
-        kind = kind_of_name(one.kind)
+        kind = kind_of_laws(one.kind)
         values = {name: value for name, (value, _) in one.truth.items()}
         for model, answer in one.models.items():
             own = one.own.get(model, {})
@@ -178,7 +178,7 @@ def silences(scenes: Sequence[Judged]) -> list[Silence]:
     groups: dict[tuple[str, str, str], list[bool]] = {}
     for one in scenes:
         for model, answer in one.models.items():
-            for quantity in kind_of_name(one.kind).compared:
+            for quantity in kind_of_laws(one.kind).compared:
                 if quantity in answer.values:
                     states = quantity in answer.uncertainty or quantity in answer.expected_error or answer.warnings
                     groups.setdefault((one.kind, model, quantity), []).append(not states)
@@ -215,7 +215,7 @@ def relative_error(scene: Judged, advice: Advised) -> tuple[float, float] | None
     if advice.value is None or advice.quantity not in scene.truth or advice.model == scene.by:
         return None
     true, truth_uncertainty = scene.truth[advice.quantity]
-    size = float(kind_of_name(scene.kind).scale({name: pair[0] for name, pair in scene.truth.items()}, advice.quantity))
+    size = float(kind_of_laws(scene.kind).scale({name: pair[0] for name, pair in scene.truth.items()}, advice.quantity))
     return abs(advice.value - true) / size, truth_uncertainty / size
 
 

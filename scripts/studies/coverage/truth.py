@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,13 +41,15 @@ def kinds_with_truth() -> tuple[str, ...]:
 
 
 def truth_of(scene: Scene) -> Truth:
-    """Return the truth of a scene by ``truths/<kind>.py``.
+    """Return the truth of a scene by ``truths/<kind>.py``, the kind as its laws name it.
 
     Raises
     ------
     ConvergenceError
         If the solution does not converge; the scene is then left out of the study, and counted.
     """
-    found: Any = importlib.import_module(f"scripts.studies.coverage.truths.{scene.kind}").truth(scene)
+    found: Any = importlib.import_module(f"scripts.studies.coverage.truths.{kind_of_scene(scene).name_of_laws}").truth(
+        scene
+    )
     assert isinstance(found, Truth)
     return found

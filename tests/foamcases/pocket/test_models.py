@@ -168,7 +168,7 @@ def test_the_extrapolated_load_over_steep_grooves_is_that_of_finite_elements(
 ):
     scene = steep_scene(make_scene, width, depth, reynolds_number, shift)
     runs = [NAVIER_STOKES.solve(scene, Request(resolution=n)) for n in (60, 120, 240)]
-    study = convergence(NAVIER_STOKES, runs)["load_plus"]
+    study = convergence(NAVIER_STOKES, runs, scene)["load_plus"]
     assert study.value == pytest.approx(load, rel=3e-3)
     assert abs(study.value - load) < study.uncertainty
     assert abs(study.values[-1] - load) < study.uncertainty < 0.05 * load
@@ -182,7 +182,8 @@ def test_load_of_navier_stokes_extrapolates_to_the_independent_value(
 ):
     """Second order over a shallow groove; less over a short steep one, whose edges are sharper."""
     scene = make_scene(width, depth, 160)
-    found = convergence(NAVIER_STOKES, [solve(NAVIER_STOKES, scene, n) for n in (240, 60, 120)])["load_plus"]
+    runs = [solve(NAVIER_STOKES, scene, n) for n in (240, 60, 120)]
+    found = convergence(NAVIER_STOKES, runs, scene)["load_plus"]
     assert found.grids == (60, 120, 240)
     assert found.kind is ConvergenceKind.MONOTONE
     assert least < found.order < most

@@ -157,7 +157,7 @@ def test_a_mirrored_groove_has_its_pressure_turned_round(entries):
 @examples(15)
 @given(pockets(), number(1e-3, 1e3), number(1e-2, 1e2))
 def test_only_dimensionless_numbers_count(entries, longer, thicker):
-    """Lengths and viscosities in other units, at the same Reynolds number: the same p+ and friction+.
+    """Lengths and viscosities in other units, at the same Re and ambient pressure over η u/h: the same p+, friction+.
 
     A model that warns of itself may follow rounding, as thin films do where the walls of a half circle are upright.
     """
@@ -178,7 +178,9 @@ def test_only_dimensionless_numbers_count(entries, longer, thicker):
     scene = valid(entries)
     oil = {"viscosity": f"{scene.lubricant.viscosity * thicker!r} Pa*s", "density": "900 kg/m^3"}
     changed = {"lubricant": oil, "motion": {"reynolds_number": scene.reynolds_number}}
-    there = valid(entries | changed | {"geometry": scaled(entries["geometry"])})
+    changed |= {"geometry": scaled(entries["geometry"])}
+    unit = valid(entries | changed).pressure_unit / scene.pressure_unit
+    there = valid(entries | changed | {"boundary": {"ambient_pressure": f"{101325.0 * unit!r} Pa"}})
     for model in rungs("pocket"):
         one, other = (solved(model, each) for each in (scene, there))
         if one is None or other is None or one.warnings:

@@ -331,6 +331,15 @@ def test_films_under_load_lie_on_the_curve_of_butenschoen() -> None:
     assert values["films"][0] / values["films"][-1] == pytest.approx(12.5, abs=0.1)
 
 
+def test_inertia_takes_load_from_a_pad_where_the_flow_leaves_the_walls_of_its_grooves() -> None:
+    values = values_of("bearings/inertia_in_a_pad")
+    change, reduced = values["change"]["film_slope"], values["numbers"] / values["aspect"]
+    assert np.abs(change[reduced < 3.2]).max() < 0.01
+    assert (change[reduced > 6] < -0.03).all()
+    assert change[-1] == pytest.approx(-0.21, abs=0.005)
+    assert (values["change"]["film"][reduced < 3.2] > 0).all()
+
+
 def test_a_starved_inlet_takes_what_it_is_given() -> None:
     values = values_of("bearings/inlet_starvation")
     inlets, couette = values["inlets"], values["speed"] * (values["film"] + values["rise"]) / 2

@@ -12,7 +12,7 @@ import typer
 from rich.table import Table as ShownTable
 
 from roughfilm.rom.advice.laws import Grid, Law, Promise, Step, Table, table
-from roughfilm.rom.ladder.kind import kind_of_name
+from roughfilm.rom.ladder.kind import kind_of_laws
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.studies.ordering import CERTAINTY
 from roughfilm.terminal.console import in_one_line, make_directory, output, run_alone
@@ -33,7 +33,7 @@ COMMAND = "python -m scripts.studies.coverage.fit --out OUT"
 def laws(kind: str, terms: Terms, errors: Callable[[str], Rows]) -> dict[str, Law]:
     """Return the laws of all quantities of a kind that have enough errors, which ``errors(quantity)`` returns."""
     names, found = {name for term in terms for name in term}, {}
-    for quantity in kind_of_name(kind).titles if terms else ():
+    for quantity in kind_of_laws(kind).titles if terms else ():
         usable = [
             (numbers, error)
             for numbers, error in errors(quantity)

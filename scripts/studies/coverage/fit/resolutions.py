@@ -47,7 +47,7 @@ def resolutions_of(model: Model, scene: Scene) -> tuple[int, ...]:
     The series of a model on the points of a surface ends with all of them.
     """
     series = model.resolutions_of(scene)
-    return series if model.outside or model.order is None else (*series, FINEST_FACTOR * max(series))
+    return series if model.outside or model.order_of(scene) is None else (*series, FINEST_FACTOR * max(series))
 
 
 def refine(kind: str, names: Sequence[str], seeds: Sequence[int], out: Path, advance: Callable[[str], None]) -> None:
@@ -56,7 +56,7 @@ def refine(kind: str, names: Sequence[str], seeds: Sequence[int], out: Path, adv
     known = read(path)
     for seed in seeds:
         scene = drawn(kind, seed)
-        for model in (find(kind, name) for name in names):
+        for model in (find(scene.kind, name) for name in names):
             advance(f"{kind} {seed}, {model.name}")
             if (seed, model.name) in known or not (model.available().available and model.applies(scene).applies):
                 continue

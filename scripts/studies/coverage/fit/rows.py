@@ -7,7 +7,7 @@ from pathlib import Path
 from roughfilm.ladder import find, models
 from roughfilm.rom.advice.estimates import over
 from roughfilm.rom.advice.laws import Numbers, on_grid
-from roughfilm.rom.ladder.kind import Kind, kind_of_name
+from roughfilm.rom.ladder.kind import Kind, kind_of_laws
 from roughfilm.rom.ladder.model import best
 from roughfilm.rom.ladder.scene import read_scene
 from scripts.studies.coverage import store
@@ -57,7 +57,7 @@ class FitScene:
 
 def fit_scenes(kind: str, out: Path) -> dict[int, FitScene]:
     """Return the scenes of a kind to which laws are fitted, by seed, without those that have no truth."""
-    own_kind, found = kind_of_name(kind), {}
+    own_kind, found = kind_of_laws(kind), {}
     for seed, one in store.read(store.path_of(out, kind)).items():
         if part_of(seed) == "fit" and not one.failure:
             found[seed] = FitScene(judged=one, numbers=own_kind.numbers(read_scene(one.scene)), kind=own_kind)
@@ -71,7 +71,7 @@ def promised(scenes: Mapping[int, FitScene], refinements: Refinements, model: st
     """
     rows: Rows = []
     for seed, one in scenes.items():
-        own = find(one.judged.kind, model)
+        own = find(one.kind.name, model)
         if own.outside and (seed, model) in refinements:
             resolution = own.resolution_of(read_scene(one.judged.scene))
             values = refinements[seed, model].values.get(resolution, {})
@@ -145,7 +145,7 @@ def _known(
 def _errors(
     one: FitScene, known: Mapping[int, Mapping[str, float]], model: str, quantity: str
 ) -> Iterator[tuple[int, float]]:
-    kind = one.judged.kind
+    kind = one.kind.name
     own = find(kind, model)
     if own.outside and (model in one.judged.own or own is best(models(kind))):
         for resolution, values in known.items():
@@ -156,7 +156,9 @@ def _errors(
     *_, second, last = sorted(known)
     finest, limit = known[last], known[last][quantity]
     if own.outside:
-        limit += (limit - known[second][quantity]) / ((last / second) ** (own.order or 1) - 1)
+        limit += (limit - known[second][quantity]) / (
+            (last / second) ** (own.order_of(read_scene(one.judged.scene)) or 1) - 1
+        )
     for resolution, values in known.items():
         if own.outside or resolution < last:
             yield resolution, over(abs(values[quantity] - limit), float(one.kind.scale(finest, quantity)))

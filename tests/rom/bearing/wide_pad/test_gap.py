@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from roughfilm.rom.bearing.wide_pad.gap import inertia_obstacle, pad_gap
+from roughfilm.rom.bearing.wide_pad.gap import pad_gap, thin_film_obstacle
 from roughfilm.rom.ladder.scene import read_scene
 
 TEXTURE = {"length": "1 mm", "depth": "10 um", "start": "1 mm", "pitch": "3 mm", "columns": 2}
@@ -51,7 +51,7 @@ def test_x_runs_along_the_motion_of_the_wall():
     ],
 )
 def test_reasons_for_which_inertia_is_not_resolved(scene, words):
-    assert re.search(words, inertia_obstacle(scene()) or "")
+    assert re.search(words, thin_film_obstacle(scene()) or "")
 
 
 def test_inertia_needs_a_density():
@@ -60,4 +60,4 @@ def test_inertia_needs_a_density():
     scene = read_scene(
         {"name": "pad", "kind": "bearing", "geometry": parallel, "lubricant": entries, "motion": {"speed": "4 m/s"}}
     )
-    assert "lubricant.density" in (inertia_obstacle(scene) or "")
+    assert "lubricant.density" in (thin_film_obstacle(scene) or "")
