@@ -108,7 +108,7 @@ def places(states, loads=None):
                 column=f"Re {reynolds_number:g}",
                 outcome=MapOutcome(outcome),
                 why=why,
-                numbers={"load_plus": loads[number] if loads else None},
+                numbers={"load": loads[number] if loads else None},
             )
         )
     return spots
@@ -141,7 +141,7 @@ def test_words_compare_a_scheme_with_the_first_one():
 
 def test_the_scenes_of_a_family_are_where_they_say():
     scene = scene_at(5000.0, 3.0)
-    assert scene.reynolds_number == 5000.0
+    assert scene.reynolds_number == pytest.approx(5000.0)
     along = np.linspace(-0.5e-3, 0.5e-3, 101)
     assert scene.gap().thickness(along).max() == pytest.approx(4 * 30e-6)
 
