@@ -1,4 +1,4 @@
-"""The maps of the pocket models: where each model converges with each scheme, over Reynolds number and depth."""
+"""The maps of films over pockets: where each model converges with each scheme, over Reynolds number and depth."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -8,29 +8,30 @@ from typing import Any
 
 from roughfilm.batch.answers import answers_to
 from roughfilm.batch.jobs import Failure, Job
+from roughfilm.contact.foundation.errors import Outcome
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.foamcases.openfoam.iterate import RECIPE
 from roughfilm.foamcases.openfoam.residuals import PATIENCE
 from roughfilm.ladder import models
+from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.rom.parts.laminar import TURBULENT
-from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.stability.form import SECOND_TRY, MapOutcome, Spot, Spots, StabilityMap, count, failed, in_groups
 
 RE, DEPTH = "Re", "d+"
 
 """Names of the columns (Reynolds number) and rows (depth over the film thickness) of the map."""
 
-FILM = 30e-6
-"""Film thickness, m."""
+FILM, VISCOSITY, DENSITY = 30e-6, 0.01, 1000.0
+"""Film thickness outside of the pockets, m, viscosity, Pa s, and density, kg/m³."""
 
 GROOVE = {
     "name": "pocket",
     "kind": "pocket",
-    "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
+    "lubricant": {"viscosity": with_unit(VISCOSITY, "Pa*s"), "density": with_unit(DENSITY, "kg/m^3")},
     "geometry": {"length": "1 mm", "film": with_unit(FILM, "m"), "profile": "cylindrical", "width": "0.3 mm"},
 }
 """Entries of the scene of the groove of Sahlin et al. 2005, doi:10.1115/1.1828067, without a depth."""
@@ -48,28 +49,41 @@ DIMPLE = {
 """Entries of the scene of a spherical dimple in a square cell, without a depth."""
 
 
+PAD = {
+    "name": "pad",
+    "kind": "bearing",
+    "lubricant": {**GROOVE["lubricant"], "cavitation_pressure": "-0.1 MPa"},  # type: ignore[dict-item]
+    "geometry": {
+        "shape": "parallel",
+        "length": "4 mm",
+        "film": with_unit(FILM, "m"),
+        "texture": {"length": "0.5 mm", "start": "0.25 mm", "pitch": "1 mm", "columns": 2},
+    },
+}
+"""Entries of the scene of an infinitely wide pad with two grooves in its leading half, without a depth."""
+
+
 def available_models(kind: str) -> tuple[list[Model], dict[str, str]]:
     """The models of a kind that are available on this machine, and by name the reason why the others are absent."""
     absent = {model.name: here.detail for model in models(kind) if not (here := model.available()).available}
     return [model for model in models(kind) if model.name not in absent], absent
 
 
-def scene_at(reynolds_number: float, depth_plus: float, entries: Mapping[str, Any] = GROOVE) -> Pocket:
-    """The scene at a Reynolds number and a depth over the film thickness; ``entries`` have no depth."""
-    depth = {"depth": with_unit(depth_plus * FILM, "m")}
-    geometry = entries["geometry"]
+def scene_at(reynolds_number: float, depth_plus: float, entries: Mapping[str, Any] = GROOVE) -> Scene:
+    """The scene at Re = ρ u film/η and a depth over the film thickness; ``entries`` have neither."""
+    depth, geometry = {"depth": with_unit(depth_plus * FILM, "m")}, entries["geometry"]
+    own: dict[str, Any] = depth
     if "dimples" in geometry:
-        geometry = {**geometry, "dimples": [{**one, **depth} for one in geometry["dimples"]]}
-    else:
-        geometry = {**geometry, **depth}
-    scene = read_scene({**entries, "geometry": geometry, "motion": {"reynolds_number": reynolds_number}})
-    assert isinstance(scene, Pocket)
-    return scene
+        own = {"dimples": [{**one, **depth} for one in geometry["dimples"]]}
+    elif "texture" in geometry:
+        own = {"texture": {**geometry["texture"], **depth}}
+    speed = with_unit(reynolds_number * VISCOSITY / (DENSITY * FILM), "m/s")
+    return read_scene({**entries, "geometry": {**geometry, **own}, "motion": {"speed": speed}})
 
 
 @dataclass(frozen=True, kw_only=True)
 class Places:
-    """The Reynolds numbers and the depths over the film thickness at which a groove or a dimple is solved."""
+    """The Reynolds numbers and the depths over the film thickness at which films over pockets are solved."""
 
     entries: Mapping[str, Any] = field(default_factory=lambda: GROOVE)
     reynolds_numbers: tuple[float, ...] = (40.0, 160.0, 500.0, 1000.0, 2000.0, 5000.0)
@@ -80,7 +94,7 @@ class Places:
 
         The arguments are those of ``StabilityMap.solve``; ``resolution`` counts mesh columns of the OpenFOAM models.
         """
-        here, absent = available_models("pocket")
+        here, absent = available_models(self.entries["kind"])
         settings = [
             Setting(model=model, resolution=resolution if model.outside else None, scheme=scheme)
             for model in here
@@ -109,9 +123,11 @@ def spot_of(setting: Setting, reynolds_number: float, depth_plus: float, answer:
     }
     numbers = {"reynolds_number": reynolds_number, "depth_plus": depth_plus}
     if isinstance(answer, Failure):
-        return failed(answer, **place, numbers={**numbers, "load_plus": None})
+        return failed(answer, **place, numbers={**numbers, "load": None})
     failures = [
-        f"{run.outcome} after {run.iterations} iterations at the first try" for run in answer.numerics.runs[:-1]
+        f"{run.outcome} after {run.iterations} iterations at the first try"
+        for run in answer.numerics.runs[:-1]
+        if run.outcome != Outcome.CONVERGED
     ]
     return Spot(
         **place,
@@ -120,7 +136,7 @@ def spot_of(setting: Setting, reynolds_number: float, depth_plus: float, answer:
         iterations=answer.numerics.iterations,
         cpu_s=answer.numerics.cpu_s,
         message="; ".join([*failures, *answer.warnings]),
-        numbers={**numbers, "load_plus": answer["load_plus"].value},
+        numbers={**numbers, "load": answer["load"].value},
     )
 
 
@@ -150,8 +166,8 @@ def _sentences(name: str, groups: Mapping[str, Sequence[Spot]]) -> list[str]:
 
 
 def _differences(own: Sequence[Spot], first: Sequence[Spot]) -> list[float]:
-    others = {(spot.row, spot.column): spot.numbers["load_plus"] for spot in first}
-    pairs = ((spot.numbers["load_plus"], others[spot.row, spot.column]) for spot in own)
+    others = {(spot.row, spot.column): spot.numbers["load"] for spot in first}
+    pairs = ((spot.numbers["load"], others[spot.row, spot.column]) for spot in own)
     return [abs(load / other - 1) for load, other in pairs if load is not None and other]
 
 
@@ -191,4 +207,16 @@ DIMPLES = replace(
     "every model takes it as laminar.",
     resolution=32,
     solve=Places(entries=DIMPLE).solve,
+)
+
+PADS = replace(
+    POCKET,
+    name="pad",
+    title="A wide pad with grooves",
+    axes="An infinitely wide parallel pad of 4 mm under a film of 30 µm, with two grooves 500 µm wide in its leading "
+    "half: Re = ρ u h/η (columns) and depth d+ = d/h (rows), by every model with every scheme; OpenFOAM with "
+    "{resolution} mesh columns, the other models at their default resolution. Above Re = "
+    f"{TURBULENT:g} shear flow turns turbulent, and every model takes it as laminar.",
+    resolution=160,
+    solve=Places(entries=PAD).solve,
 )

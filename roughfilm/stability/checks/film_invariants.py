@@ -26,8 +26,8 @@ def pocket(scene: Pocket, result: Result) -> Iterator[str]:
     """The laws that a pocket's result violates, in words.
 
     The load is within the range of the pressure. The wall's work equals the dissipation, which is at least
-    ∫ η u²/h dx; this bound is not checked for a result with warnings or cavities. The backflow is not negative, and the film is not
-    thinner than outside of the grooves.
+    ∫ η u²/h dx; this bound is not checked for a result with warnings or cavities. The backflow is not negative, and the
+    film is not thinner than outside of the grooves.
     """
     value = {name: quantity.value for name, quantity in result.quantities.items()}
     low, high = value["pressure_min_plus"], value["pressure_max_plus"]

@@ -108,7 +108,7 @@ def places(states, loads=None):
                 column=f"Re {reynolds_number:g}",
                 outcome=MapOutcome(outcome),
                 why=why,
-                numbers={"load_plus": loads[number] if loads else None},
+                numbers={"load": loads[number] if loads else None},
             )
         )
     return spots
@@ -141,9 +141,15 @@ def test_words_compare_a_scheme_with_the_first_one():
 
 def test_the_scenes_of_a_family_are_where_they_say():
     scene = scene_at(5000.0, 3.0)
-    assert scene.reynolds_number == 5000.0
+    assert scene.reynolds_number == pytest.approx(5000.0)
     along = np.linspace(-0.5e-3, 0.5e-3, 101)
     assert scene.gap().thickness(along).max() == pytest.approx(4 * 30e-6)
+
+
+def test_a_film_solved_on_several_grids_converged_at_the_first_try():
+    cavitating = find("pocket", "reynolds_cavitating")
+    spot = spot_of(Setting(model=cavitating), 1000.0, 0.75, cavitating.solve(scene_at(1000.0, 0.75)))
+    assert (spot.outcome, spot.why) == (MapOutcome.CONVERGED, "")
 
 
 def test_a_map_is_a_page_a_table_and_json_and_is_not_made_twice(small, tmp_path):
