@@ -231,10 +231,11 @@ def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | No
 def _by_omission(task: AdviceTask, model: Model) -> Estimate | None:
     """The estimate for the most complete model whose omitted effect stands for its error; None without one.
 
-    The error is 0, as the part of the effect is added to it.
+    The error is 0, as the part of the effect is added to it. The model states the uncertainty of its own run, as models
+    that run in this process do.
     """
     own = task.omitted.get(model.name)
-    if own is None or not own.source or task.next(model) is not None:
+    if own is None or not own.source or model.outside or task.next(model) is not None:
         return None
     return Estimate(error=0.0, reasons=(own.reason,), source=own.source)
 

@@ -65,8 +65,8 @@ class StatedError:
 
     @property
     def words(self) -> str:
-        """The error with its source, such as "1.2 % (expected by the laws)"."""
-        return f"{self.amount} ({self.source})"
+        """The error with its source, such as "1.2 % (expected by the laws)"; without it for an unknown error."""
+        return f"{self.amount} ({self.source})" if math.isfinite(self.error) else self.amount
 
 
 def measured(against: str, difference: float, uncertainty: float | None) -> StatedError:

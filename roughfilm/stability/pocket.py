@@ -8,6 +8,7 @@ from typing import Any
 
 from roughfilm.batch.answers import answers_to
 from roughfilm.batch.jobs import Failure, Job
+from roughfilm.contact.foundation.errors import Outcome
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.foamcases.openfoam.iterate import RECIPE
 from roughfilm.foamcases.openfoam.residuals import PATIENCE
@@ -124,7 +125,9 @@ def spot_of(setting: Setting, reynolds_number: float, depth_plus: float, answer:
     if isinstance(answer, Failure):
         return failed(answer, **place, numbers={**numbers, "load": None})
     failures = [
-        f"{run.outcome} after {run.iterations} iterations at the first try" for run in answer.numerics.runs[:-1]
+        f"{run.outcome} after {run.iterations} iterations at the first try"
+        for run in answer.numerics.runs[:-1]
+        if run.outcome != Outcome.CONVERGED
     ]
     return Spot(
         **place,

@@ -11,7 +11,7 @@ from math import inf
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.rom.advice.laws import table
 from roughfilm.rom.advice.stated import BY_LAWS, percent
-from roughfilm.rom.ladder.kind import Omission, kind_of
+from roughfilm.rom.ladder.kind import Omission, kind_of, kind_of_scene
 from roughfilm.rom.ladder.model import Effect, Model
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -118,7 +118,8 @@ def _cavitation(scene: Pocket, found: _Films, quantity: str) -> Omission:
 def _inertia(scene: Pocket, found: _Films | None, quantity: str) -> Omission:
     change, part = inf, inf
     if found is None:
-        law, own = table().promise("pocket", REYNOLDS.name).laws.get(quantity), numbers(scene)
+        laws = table().promise(kind_of_scene(scene).name_of_laws, REYNOLDS.name).laws
+        law, own = laws.get(quantity), numbers(scene)
         if law is not None and law.knows(own) and law.beyond(own) is None:
             part = law.error(own)
     elif found.inertia is not None and quantity in INERTIA_FACTORS:
@@ -147,24 +148,20 @@ def _over(change: float, found: _Films, quantity: str) -> float:
 def _ruptured(scene: Pocket) -> _Films | None:
     """The films of a scene whose film ruptures; None if it does not.
 
-    A quick film is judged first. The one with inertia judges if there is one.
+    A film with inertia to first order is judged first, over grooves then one with all of it, if it converges.
     """
-    reynolds = REYNOLDS.solve(scene)
-    quick = _by(INERTIAL_REYNOLDS, scene) or reynolds
-    if not any(_falls(scene, one) for one in (reynolds, quick)):
+    reynolds, inertia = REYNOLDS.solve(scene), _by(INERTIAL_REYNOLDS, scene)
+    if not any(_falls(scene, one) for one in (reynolds, inertia) if one is not None):
         return None
-    found = next(filter(None, (_by(model, scene) for model in (FILM_SLOPE, FILM))), None)
-    inertia = found or (None if quick is reynolds else quick)
+    if not scene.in_plan:
+        inertia = _by(FILM_SLOPE, scene, CELLS) or _by(FILM, scene, CELLS) or inertia
     if not _falls(scene, inertia or reynolds):
         return None
     return _Films(reynolds=reynolds, cavitating=REYNOLDS_CAVITATING.solve(scene), inertia=inertia)
 
 
-def _by(model: Model[Pocket], scene: Pocket) -> Result | None:
-    """The result of a model with inertia; None if it does not apply or does not converge."""
-    if not model.applies(scene).applies:
-        return None
-    cells = CELLS if model in (FILM, FILM_SLOPE) and not scene.in_plan else None
+def _by(model: Model[Pocket], scene: Pocket, cells: int | None = None) -> Result | None:
+    """The result of a model with inertia; None if it does not converge."""
     try:
         return model.solve(scene, Request(resolution=cells))
     except ConvergenceError:

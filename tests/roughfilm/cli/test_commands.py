@@ -107,7 +107,7 @@ def test_solve_shows_a_table(pocket_file):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--model", "raynolds"], "--model: got 'raynolds'; it must be one of reynolds, inertial_reynolds"),
+        (["--model", "raynolds"], "--model: got 'raynolds'; it must be one of reynolds, reynolds_cavitating"),
         (
             ["--model", "reynolds", "--set", "geometry.depth=7.5"],
             "scene.geometry.depth: got 7.5, a number without",

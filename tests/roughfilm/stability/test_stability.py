@@ -146,6 +146,12 @@ def test_the_scenes_of_a_family_are_where_they_say():
     assert scene.gap().thickness(along).max() == pytest.approx(4 * 30e-6)
 
 
+def test_a_film_solved_on_several_grids_converged_at_the_first_try():
+    cavitating = find("pocket", "reynolds_cavitating")
+    spot = spot_of(Setting(model=cavitating), 1000.0, 0.75, cavitating.solve(scene_at(1000.0, 0.75)))
+    assert (spot.outcome, spot.why) == (MapOutcome.CONVERGED, "")
+
+
 def test_a_map_is_a_page_a_table_and_json_and_is_not_made_twice(small, tmp_path):
     small({"reynolds", "inertial_reynolds"})
     result = run("pocket", "--out", tmp_path, "--jobs", 1, "--json")
