@@ -69,7 +69,7 @@ def range_warnings(scene: Pocket, *, change: float | None) -> tuple[str, ...]:
     if scene.slope > STEEP:
         warnings.append(
             f"the mean slope of the steepest dimple is {scene.slope:.3g}, above {STEEP:g}: the film over it is not "
-            "thin; take film_slope or navier_stokes"
+            "thin; take navier_stokes"
         )
     inertial = scene.reynolds_number * scene.aspect
     if change is None and inertial > INERTIAL:
