@@ -66,7 +66,7 @@ def test_a_cell_in_plan_has_numbers_and_laws_of_its_own():
     assert 0 < found["loaded"] < 1
     assert set(found) <= set(SYMBOLS)
     own = kind_of_scene(scene)
-    assert own.name_of_laws == "pocket_in_plan" == kind_of_laws("pocket_in_plan").name_of_laws
+    assert own.name_of_laws == "dimples" == kind_of_laws("dimples").name_of_laws
     assert kind_of_scene(pocket(width="0.2 mm", depth="15 um")).name_of_laws == "pocket"
 
 
