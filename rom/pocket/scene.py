@@ -93,7 +93,8 @@ class Pocket(Scene):
     ``shear_stress``, Pa. Models that resolve the film add ``vertices`` (nx+1, ny+1, 2), ``cell_velocity`` (nx, ny, 2)
     and ``cell_pressure`` (nx, ny). In plan the fields are ``x`` and ``y``, m, ``film_thickness``, ``pressure`` and
     ``shear_stress``, all (nx, ny), and ``vertices`` (nx+1, ny+1, nz+1, 3), ``cell_velocity`` (nx, ny, nz, 3) and
-    ``cell_pressure`` (nx, ny, nz).
+    ``cell_pressure`` (nx, ny, nz). A model with cavitation adds ``density_ratio``, the fraction θ of the gap that is
+    full of liquid.
     """
 
     kind: Literal["pocket"]

@@ -78,7 +78,6 @@ def solve(solver: Model[Bearing], scene: Bearing, request: CheckedRequest, progr
         model=solver.name,
         quantities=in_order(scene, with_uncertainties(finest.quantities, uncertainty)),
         fields=_fields(scene, finest),
-        provenance=provenance(scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources),
         numerics=Numerics(
             residual=finest.film.residual,
             iterations=sum(level.film.steps for level in levels),
@@ -90,6 +89,7 @@ def solve(solver: Model[Bearing], scene: Bearing, request: CheckedRequest, progr
             scheme=request.scheme,
             runs=tuple(SolverRun(name=str(level.strip.lengths.size), iterations=level.film.steps) for level in levels),
         ),
+        provenance=provenance(scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources),
         warnings=tuple(warnings),
     )
 

@@ -1,6 +1,7 @@
 """A pocket says where its film would rupture, and no advice is given on it as if it did not."""
 
 import pytest
+from places import SCENES
 
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
@@ -9,7 +10,7 @@ from roughfilm.rom.advice.advise import Verdict, advise, shortfall
 from roughfilm.rom.advice.expected import expected_errors
 from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.ladder.model import Effect, ladder
-from roughfilm.rom.ladder.scene import read_scene, scene_entries
+from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
 
 MODELS = tuple(model for model in ladder(rom, kind="pocket") if Effect.CAVITATION not in model.keeps)
 
@@ -96,6 +97,14 @@ def test_a_film_that_stays_whole_lacks_nothing_but_inertia():
     own = omitted(scene, find("pocket", "reynolds_cavitating"), "friction_plus")
     assert own.part == pytest.approx(expected(scene)["friction_plus"].error, rel=1e-9)
     assert own.source == "expected by the laws"
+
+
+def test_a_slow_cell_in_plan_that_ruptures_is_solved_with_cavitation():
+    slow = load_scene(SCENES / "dimple.toml", ["boundary.ambient_pressure=0.1kPa", "motion.reynolds_number=2"])
+    found = advise(slow, models("pocket"), quantity="friction_plus", within=0.05)
+    assert found.chosen.model == "reynolds_cavitating"
+    omitted = kind_of_name("pocket").omitted
+    assert omitted(slow, find("pocket", "reynolds"), "load_plus").part > 1
 
 
 def expected(scene):
