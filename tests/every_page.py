@@ -19,6 +19,7 @@ from roughfilm.cli.upkeep import stability
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.figures import base
 from roughfilm.ladder import models
+from roughfilm.rom.ladder.model import Resolutions
 from roughfilm.stability import pocket as stability_pocket
 from roughfilm.stability.pocket import POCKET, Places
 
@@ -69,9 +70,12 @@ def changes(*changed: str) -> list[str]:
 
 
 def comparison(kind: str, folder: Path) -> Path:
-    """The page of a comparison by the models that need no other program."""
+    """The page of a comparison by the models that need no other program; on coarse grids for a cell in plan."""
+    coarse = {"resolutions": Resolutions(least=8, most=32, default=32, series=(8, 16, 32))} if kind == "dimple" else {}
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(compare, "models", lambda kind: tuple(one for one in models(kind) if not one.outside))
+        patch.setattr(
+            compare, "models", lambda kind: tuple(replace(one, **coarse) for one in models(kind) if not one.outside)
+        )
         run("compare", folder / SCENES_COMPARED[kind], "--out", folder / kind)
     return folder / kind / "report.html"
 

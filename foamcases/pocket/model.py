@@ -13,7 +13,7 @@ from roughfilm.rom.pocket.scene import Pocket
 
 SOURCES = ("10.1115/1.1828067", "10.1063/1.168744", "10.1080/01495728408961817")
 GROOVE_COLUMNS = Resolutions(least=12, most=4000, default=240, series=(30, 60, 120, 240))
-PLAN_COLUMNS = Resolutions(least=12, most=400, default=96, series=(24, 48, 96))
+PLAN_COLUMNS = Resolutions(least=12, most=400, default=80, series=(20, 40, 80))
 
 
 def cost(scene: Pocket, resolution: int) -> float:

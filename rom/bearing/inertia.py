@@ -1,16 +1,11 @@
 r"""The change of a converged film by inertia, to first order in the Reynolds number.
 
-With Y = z/h from the fixed wall to the sliding one and φ = Y(1 - Y), the velocities of the Reynolds equation are
-u = UY + 6a φ and v = 6b φ, and the flow is q = h (U/2 + a, b). The momentum balance weighted with φ, which removes the
-unknown first-order profile, gives the flow that inertia drives while it changes the pressure by p₁,
+With the velocities of the Reynolds equation and the forces C and D of :mod:`roughfilm.rom.thin_film.inertia`, inertia
+drives a flow while it changes the pressure by p₁,
 
     q₁ = -h³/(12η) ∇p₁ - ρ h²/(2η) C,    ∇·q₁ = 0,
-    Cx = ∂x(h (U²/20 + Ua/5 + 9a²/35)) + ∂y(h b (U/10 + 9a/35)) + U h' (U/60 + a/70),
-    Cy = ∂x(h b (U/10 + 9a/35)) + ∂y(9h b²/35) + U h' b/70,    h' = ∂h/∂x,
 
-and weighted with Y the shear stress that it adds on the sliding wall, h/2 ∂p₁/∂x + ρD with
-
-    D = ∂x(h (U²/4 + 3Ua/5 + 3a²/5)) + ∂y(h b (3U/10 + 3a/5)) - U h' (U/20 + a/10).
+and adds the shear stress h/2 ∂p₁/∂x + ρD on the sliding wall.
 
 On a line this is :func:`roughfilm.rom.pocket.closed_form.inertia_pressure_gradient`. In cavities, and at ends and sides
 with a prescribed pressure, p₁ = 0: the edges of the film do not move, and entrance losses are left out.
@@ -28,6 +23,7 @@ from roughfilm.rom.bearing.quantities import load_of, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.thin_film import inertia as terms
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,30 +66,30 @@ def inertia(scene: Bearing, solution: Solution) -> Inertia:
     east, north = solution.network.conductance(mobility)
     wet = solution.kind != CAVITY
     a, b = _excess(solution, east, north, wet)
-    through_x = h * (speed**2 / 20 + speed * a / 5 + 9 * a**2 / 35)
-    through_xy = h * b * (speed / 10 + 9 * a / 35)
-    through_y = 9 * h * b**2 / 35
+    through_x = terms.momentum_along(h, a, speed)
+    through_xy = terms.momentum_between(h, a, b, speed)
+    through_y = terms.momentum_across(h, b)
     dx, dy = grid.spacing_x[:-1, None], grid.spacing_y[:-1]
     rise = speed * np.diff(h, axis=0) / dx
     mean = _means(through_xy, 0)
     x_force = (
         np.diff(through_x, axis=0) / dx
         + _wet_slope(mean, 1, grid.y, _both(wet, 0))
-        + rise * _means(speed / 60 + a / 70, 0)
+        + rise * _means(terms.slope_along(a, speed), 0)
     )
     drive = -density * _means(h**2 / (2 * viscosity), 0) * x_force * grid.volume_y * _both(wet, 0)
     drive_y = np.zeros((h.shape[0], h.shape[1] - 1))
     if h.shape[1] > 1:
         climb = speed * _slope(h, 0, grid.x)
         y_force = _wet_slope(_means(through_xy, 1), 0, grid.x, _both(wet, 1)) + np.diff(through_y, axis=1) / dy
-        y_force += _means(climb * b / 70, 1)
+        y_force += _means(climb * terms.slope_across(b), 1)
         drive_y = -density * _means(h**2 / (2 * viscosity), 1) * y_force * grid.volume_x[:, None] * _both(wet, 1)
     pressure = _balanced(solution.kind == FILM, east[:-1], north[:, :-1], drive, drive_y)
 
     flow = drive - east[:-1] * np.diff(pressure, axis=0)
-    shear = np.diff(h * (speed**2 / 4 + 3 * speed * a / 5 + 3 * a**2 / 5), axis=0) / dx
-    shear += _wet_slope(_means(h * b * (3 * speed / 10 + 3 * a / 5), 0), 1, grid.y, _both(wet, 0))
-    shear -= rise * _means(speed / 20 + a / 10, 0)
+    shear = np.diff(terms.shear_along(h, a, speed), axis=0) / dx
+    shear += _wet_slope(_means(terms.shear_between(h, a, b, speed), 0), 1, grid.y, _both(wet, 0))
+    shear += rise * _means(terms.shear_slope(a, speed), 0)
     stress = _means(h, 0) / 2 * np.diff(pressure, axis=0) / dx + density * shear * _both(wet, 0)
     x = scene_positions(solution)
     force = grid.areas * (solution.state.pressure + scene.lubricant.cavitation_pressure)

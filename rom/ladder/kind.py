@@ -182,8 +182,9 @@ class Kind:
         width is left out where that of the whole width is there. Quantities without a title have their name as the
         title, and come last.
         """
-        own = self.of(result.provenance["scene"])
-        first = () if own.compared == self.compared else tuple(own.compared)[:1]
+        entries = result.provenance["scene"]
+        seeks = any(entries.get(table) is not None for table in self.compared_with)
+        first = tuple(self.of(entries).compared)[:1] if seeks else ()
         names, whole = result.quantities, {f"{name}_per_width" for name in result.quantities}
         ordered = dict.fromkeys((*first, *self.reported, *names))
         return {name: self.reported.get(name, name) for name in ordered if name in names and name not in whole}

@@ -167,7 +167,7 @@ class Model(Generic[SceneT]):
     resolutions: Resolutions | Callable[[SceneT], Resolutions]
     resolution_meaning: str
     residual_meaning: str
-    order: int | None | Callable[[SceneT], int | None]
+    order: int | Callable[[SceneT], int | None] | None
     tolerance: float
     tolerances: tuple[float, float] = (1e-13, 1.0)
     schemes: tuple[str, ...] = ()

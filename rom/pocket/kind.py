@@ -75,23 +75,35 @@ def scale(values: Mapping[str, Any], quantity: str) -> Any:
 
 
 def columns(scene: Pocket) -> dict[str, Quantity | str]:
-    """The Reynolds number, and for a single groove or dimple its shape and dimensionless numbers."""
-    geometry = scene_entries(scene)["geometry"]
-    own = geometry["dimples"][0] if scene.in_plan and len(geometry["dimples"]) == 1 else {}
-    geometry = {**own, **geometry}
-    ratios = {
-        plus: float(f"{_length(geometry[one]) / _length(geometry[other]):.12g}")
-        for plus, (one, other) in RATIOS.items()
-        if one in geometry and other in geometry
+    """The Reynolds number, the dimensionless numbers of a single groove or of dimples, and their shape."""
+    if isinstance(scene.geometry, PlanGeometry):
+        shape, numbers = _of_dimples(scene, scene.geometry)
+    else:
+        geometry = scene_entries(scene)["geometry"]
+        shape = geometry.get("profile", "several grooves")
+        numbers = {
+            plus: float(f"{_length(geometry[one]) / _length(geometry[other]):.12g}")
+            for plus, (one, other) in RATIOS.items()
+            if one in geometry and other in geometry
+        }
+    numbers["reynolds_number"] = scene.reynolds_number
+    return {"profile": shape, **{name: Quantity(value=number, unit="1") for name, number in numbers.items()}}
+
+
+def _of_dimples(scene: Pocket, geometry: PlanGeometry) -> tuple[str, dict[str, float]]:
+    """The shape of the dimples of a cell, with their numbers; of several the least extent and the greatest depth."""
+    first, *others = geometry.dimples
+    width = geometry.narrowest if others else first.extents[0]
+    numbers = {
+        "film_plus": geometry.film / geometry.length,
+        "width_plus": width / geometry.length,
+        "depth_plus": scene.depth,
+        "cell_breadth": geometry.breadth / geometry.length,
+        "covered": geometry.covered,
     }
-    numbers = {**ratios, "reynolds_number": scene.reynolds_number}
-    if scene.in_plan:
-        numbers["covered"] = scene.covered
-    shape = geometry.get("shape", "several dimples") if scene.in_plan else geometry.get("profile", "several grooves")
-    return {
-        "profile": str(shape),
-        **{name: Quantity(value=float(number), unit="1") for name, number in numbers.items()},
-    }
+    shapes = {one.shape for one in geometry.dimples}
+    shape = first.shape if len(shapes) == 1 else "several dimples"
+    return shape, {name: float(f"{number:.12g}") for name, number in numbers.items()}
 
 
 def features(given: Columns) -> dict[str, NDArray[Any]]:

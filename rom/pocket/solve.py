@@ -70,7 +70,6 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             "cell_velocity": Field(values=np.stack([u, v], axis=2) * scene.speed, unit="m/s"),
             "cell_pressure": Field(values=np.repeat(middle[:, None], LAYERS, axis=1) * pascal, unit="Pa"),
         },
-        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=sources),
         numerics=Numerics(
             residual=found.residual,
             iterations=found.steps,
@@ -81,6 +80,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             tolerance=tolerance,
             scheme=scheme,
         ),
+        provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=sources),
         warnings=tuple(warnings),
     )
 

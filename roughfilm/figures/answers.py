@@ -103,7 +103,7 @@ def over_parameters(
             drawn.axvline(found.place, color="black", linewidth=0.8, linestyle=":", label="optimum by the parabola")
         _scales(drawn, parameters, axes, np.concatenate([one.values for one in answers]))
         drawn.set_ylabel(scale.label(title) if place % columns == 0 else "")
-        _limits(drawn, answers, scale)
+    _limits(grid.flat[0], answers, scale)  # of all panels, which share the axis
     return _with_legend(figure, grid.flat[0], last_first=True)
 
 

@@ -96,7 +96,10 @@ def _si(scene: Scene, key: str, value: object) -> tuple[object, str]:
     """The value and unit that the scene holds at a key; the given value if the scene has no entry there."""
     entry: Any = scene_entries(scene)
     for part in key.split("."):
-        entry = entry.get(part) if isinstance(entry, dict) else None
+        if isinstance(entry, list):
+            entry = dict(enumerate(entry)).get(int(part)) if part.isdigit() else None
+        else:
+            entry = entry.get(part) if isinstance(entry, dict) else None
     if isinstance(entry, str):
         number, _, unit = entry.partition(" ")
         try:

@@ -376,6 +376,13 @@ def test_a_sweep_has_a_row_for_every_combination_and_model(pocket):
     assert rows.units["load_per_area"] == "Pa"
 
 
+def test_a_sweep_over_a_key_of_a_dimple_has_its_values_in_si_units():
+    dimple = rf.load_scene(SCENES / "dimple.toml", set={"geometry.dimples.0.edge": "5 um"})
+    rows = rf.sweep(dimple, {"geometry.dimples.0.depth": ["5 um", "10 um"]}, models=["reynolds"])
+    assert [row["geometry.dimples.0.depth"] for row in rows] == [5e-6, 10e-6]
+    assert rows.units["geometry.dimples.0.depth"] == "m"
+
+
 def test_a_sweep_says_why_a_model_has_no_result():
     slider = rf.load_scene(SCENES / "parabolic_slider.toml")
     (row,) = rf.sweep(slider, {"motion.speed": ["1 m/s"]}, models=["mixed"])

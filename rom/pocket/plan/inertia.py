@@ -45,7 +45,7 @@ def inertia(film: PlanFilm, lines: Lines) -> Change:
     thicker = np.diff(on_line, axis=1)
     rise = np.diff(terms.momentum_along(on_line, a_line, 1.0), axis=1)
     rise += thicker * _middles(terms.slope_along(a_line, 1.0))
-    rise += along_lines(_central(between, 1) / dy)[:, :-1] * (dx / thicker.shape[1])
+    rise += _middles(along_lines(_central(between, 1) / dy)) * (dx / thicker.shape[1])
     drive = np.concatenate(
         [np.zeros_like(on_line[:, :1]), np.cumsum(-6 * _middles(1 / on_line) * rise, axis=1)], axis=1
     )

@@ -163,10 +163,10 @@ def reverse_flow(film: PlanFilm, lines: Lines) -> float:
 
 
 def highest(values: Array) -> float:
-    """The greatest value of a periodic field between its places: of the parabolas through the greatest and its neighbours.
+    """The greatest value of a periodic field between its places, of parabolas through the greatest and its neighbours.
 
-    p + gᵀ(-H)⁻¹g/2 with the central differences g and H where the field bends down in both directions, otherwise along
-    the axes in which it does.
+    It is p + gᵀ(-H)⁻¹g/2 with the central differences g and H where the field bends down in both directions, otherwise
+    that along the axes in which it does.
     """
     i, j = (int(place) for place in np.unravel_index(np.argmax(values), values.shape))
     around = values.take(range(i - 1, i + 2), axis=0, mode="wrap").take(range(j - 1, j + 2), axis=1, mode="wrap")

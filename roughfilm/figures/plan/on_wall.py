@@ -63,7 +63,7 @@ def maps(scene: Pocket, results: Mapping[str, Result], reference: str) -> Plot:
     found = differences(pressures, reference, "pressure on the sliding wall", of_pressure, bar)
     rows = -(-len(found.drawn) // MAX_COLUMNS)
     ratio = min(max(scene.plan().breadth / scene.geometry.length, 0.3), 2.0)
-    height = 0.9 + 2.1 * ratio
+    height = 0.75 + 1.85 * ratio
     figure = Figure(
         figsize=(10, height * (1 + rows)), layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08, compress=True)
     )

@@ -94,9 +94,9 @@ def limits(words: str, rows: list[Row]) -> Row:
 
 
 def grids(solved: Solved) -> Iterator[Row]:
-    """A shallow cap on grids of 24 to 144 columns."""
+    """A shallow cap on grids of 20 to 120 columns."""
     rows = []
-    for columns in (24, 48, 96, 144):
+    for columns in (20, 40, 80, 120):
         rows.append(solved("cap", cell(CAP), columns))
         yield rows[-1]
     yield limits("cap", rows)
@@ -124,7 +124,7 @@ def groove(solved: Solved) -> Iterator[Row]:
     """The groove of ``pocket.toml`` in a cell of any breadth, and as a two-dimensional scene (240 columns)."""
     shape = {"width": "0.3 mm", "depth": "7.5 um"}
     rows = []
-    for columns in (48, 72, 96):
+    for columns in (40, 80, 160):
         rows.append(solved("groove", cell({"shape": "groove", **shape}, breadth=0.1), columns))
         yield rows[-1]
     yield limits("groove", rows)
@@ -138,8 +138,8 @@ def long(solved: Solved) -> Iterator[Row]:
     With the load F per area of a cell of breadth B, the part of B F that grows with B is the load of the groove.
     """
     before = None
-    for columns in (48, 72):
-        for breadth in (0.6, 1.2, 1.8) if columns == 48 else (1.2, 1.8):
+    for columns in (40, 80):
+        for breadth in (0.6, 1.2, 1.8) if columns == 40 else (1.2, 1.8):
             box = {"shape": "box", "width": "0.3 mm", "breadth": f"{breadth - MARGIN:.12g} mm", "depth": "7.5 um"}
             row = solved(f"box, cell {breadth} mm broad", cell({**box, "edge": RAMP}, breadth=breadth), columns)
             yield row
@@ -153,7 +153,7 @@ def long(solved: Solved) -> Iterator[Row]:
             before = breadth, row
     points = [[-1.5e-4, 0.0], [-1.2e-4, 7.5e-6], [1.2e-4, 7.5e-6], [1.5e-4, 0.0]]
     section = scene({"length": "1 mm", "film": "30 um", "profile": "points", "points": points}, 160.0)
-    for columns in (48, 72, 240):
+    for columns in (40, 80, 240):
         yield solved("groove of the section", section, columns)
 
 

@@ -3,11 +3,12 @@
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from scripts.studies.pads.data import Pad, PadStudy, finite
+from scripts.studies.pads.data import RISES, Pad, PadStudy, finite
 from scripts.studies.study import Claim, claims_of, verdict
 
 INLET = ("inlet half", 1.0, 0.0)
 FULL = ("full", 1.0, 0.0)
+INCLINED = ("inlet half", 1.0, RISES[1])
 
 NOTICEABLE = 0.01
 """Relative change of the load below which inertia is not noticed."""
@@ -37,12 +38,13 @@ def _partial(study: PadStudy) -> tuple[str, str]:
     known = np.isfinite(change)
     lowest = float(number[negative].min()) if negative.any() else np.inf
     highest = float(number[positive].max()) if positive.any() else 0.0
-    values = 100 * finite(change.ravel())
+    values, inclined = (100 * finite(one.ravel()) for one in (change, relative(study, INCLINED)))
     evidence = (
         "parallel pad, pockets as deep as the film on its inlet half: inertia changes the load by "
         f"{values.min():+.0f} to {values.max():+.1f} %; it takes more than 1 % in {negative.sum()} of {known.sum()} "
         f"pads, all with Re/λ of at least {lowest:.2g}, and adds more than 1 % in {positive.sum()}"
         + (f", all with Re/λ of at most {highest:.2g}" if positive.any() else "")
+        + f"; of an inclined pad, rise h/2, it changes the load by {inclined.min():+.1f} to {inclined.max():+.0f} %"
     )
     return verdict(bool(negative.any() and not (change > 0).any()), partly=bool(negative.any())), evidence
 
@@ -54,11 +56,12 @@ def _cells(study: PadStudy) -> tuple[str, str]:
     partial, by_cells = relative(study, INLET), study.map(INLET, study.by_cells)
     wrong = (partial < -NOTICEABLE) & (by_cells > 0)
     taken = int((partial < -NOTICEABLE).sum())
-    full = finite(study.map(FULL, ratio)[reduced(study) < 1])
+    ratios, few = study.map(FULL, ratio), reduced(study) < 1
+    full, least = finite(ratios[few]), finite(ratios.ravel()).min()
     evidence = (
         f"where inertia takes more than 1 % of the load of the inlet half, single cells predict that it adds load in "
         f"{wrong.sum()} of {taken} pads; of fully textured parallel pads they predict {full.min():.2f} to "
-        f"{full.max():.2f} of the load by inertia where Re/λ < 1"
+        f"{full.max():.2f} of the load by inertia where Re/λ < 1, and {least:.2f} at the largest Re/λ"
     )
     return verdict(bool(taken and wrong.sum() == taken), partly=bool(wrong.any())), evidence
 

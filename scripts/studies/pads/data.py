@@ -19,7 +19,7 @@ FILM, VISCOSITY, DENSITY = 20e-6, 0.01, 1000.0
 CELLS = 10
 """Number of cells over the length of a pad; the pocket of a cell is as long as the land around it."""
 
-TEXTURED = {"full": CELLS, "inlet half": CELLS // 2, "none": 0}
+TEXTURED = {"full": CELLS, "inlet half": CELLS // 2}
 """Number of cells with a pocket, counted from the inlet."""
 
 DEPTHS = (0.5, 1.0)
@@ -79,7 +79,6 @@ class Pad:
 
     def scene(self) -> Scene:
         """The pad as a bearing whose liquid bears any tension."""
-        columns = TEXTURED[self.texture]
         geometry = {"length": with_unit(self.length, "m"), "film": with_unit(FILM, "m")}
         geometry |= (
             {"shape": "linear", "rise": with_unit(self.rise * FILM, "m")} if self.rise else {"shape": "parallel"}
@@ -89,13 +88,13 @@ class Pad:
             "depth": with_unit(self.depth * FILM, "m"),
             "start": with_unit(self.pocket / 2, "m"),
             "pitch": with_unit(2 * self.pocket, "m"),
-            "columns": columns,
+            "columns": TEXTURED[self.texture],
         }
         return read_scene(
             {
                 "name": f"{self.texture}, λ = {self.ratio:g}, Re = {self.number:g}",
                 "kind": "bearing",
-                "geometry": {**geometry, **({"texture": texture} if columns else {})},
+                "geometry": {**geometry, "texture": texture},
                 "lubricant": {**_liquid(), "cavitation_pressure": "-1 GPa"},
                 "motion": {"speed": with_unit(self.speed, "m/s")},
             }
@@ -138,7 +137,7 @@ class Plan:
     def maps(self) -> list[tuple[str, float, float]]:
         """The texture, depth and rise of each map: the parallel pad at both depths, the inclined one at one depth."""
         textured = [("full", depth, 0.0) for depth in DEPTHS] + [("inlet half", depth, 0.0) for depth in DEPTHS]
-        return [*textured, ("full", 1.0, RISES[1]), ("inlet half", 1.0, RISES[1]), ("none", 1.0, RISES[1])]
+        return [*textured, ("full", 1.0, RISES[1]), ("inlet half", 1.0, RISES[1])]
 
     def pads(self) -> Iterator[Pad]:
         """Every pad, with those without inertia."""

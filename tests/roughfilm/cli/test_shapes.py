@@ -17,6 +17,10 @@ ONE = ["geometry.profile=points", "geometry.points=[[-1e-4,0],[0,1e-5],[2e-4,0]]
 FIVE = "geometry.grooves=[{}]".format(
     ", ".join(f'{{"width": "{40 + n} um", "depth": "3 um", "position": "{100 * n} um"}}' for n in range(5))
 )
+TURNED = "geometry.dimples=[{}]".format(
+    '{"shape": "box", "width": "0.3 mm", "breadth": "0.5 mm", "depth": "9 um", "edge": "40 um", "rotation": "20 deg", '
+    '"position": "-0.25 mm"}'
+)
 
 
 @pytest.fixture
@@ -46,6 +50,18 @@ def reynolds_only(monkeypatch):
             "wide and 15 µm deep, with its lowest point 100 µm upstream of its middle, at 200 µm.",
         ),
         ("two_grooves", [FIVE], "in the still wall 5 grooves, at most 44 µm wide and 3 µm deep."),
+        (
+            "dimple",
+            [],
+            "in the still wall a spherical dimple, 300 µm × 300 µm and 7.5 µm deep. Dimples cover 7.07 % of the cell. "
+            "Pressures count from their mean over the edges x = ±L/2 of the cell on the sliding wall.",
+        ),
+        (
+            "dimple",
+            [TURNED, "geometry.arrangement=staggered"],
+            "a box, 300 µm × 500 µm and 9 µm deep, turned by 20°, with its middle at x = −250 µm, y = 0, staggered: "
+            "with a copy of each half a cell further along and across.",
+        ),
     ],
 )
 def test_the_page_says_what_the_wall_looks_like(pocket_file, tmp_path, name, overrides, words):

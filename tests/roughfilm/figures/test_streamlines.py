@@ -25,3 +25,12 @@ def test_the_stream_function_is_of_second_order_where_columns_lean():
         errors.append(np.abs(found - exact(x, vertices[..., 1])[0]).max())
     assert errors[0] < 0.05
     assert np.log2(errors[0] / errors[1]) == pytest.approx(2, abs=0.3)
+
+
+def test_the_stream_function_of_a_film_with_ends_takes_the_columns_beside_them():
+    """Shear between parallel walls, u = y, has ψ = y²/2 everywhere, and at the ends."""
+    x, y = np.meshgrid(np.linspace(0, 3, 7), np.linspace(0, 1, 21), indexing="ij")
+    middle = (y[:-1, 1:] + y[:-1, :-1]) / 2
+    velocity = np.stack([middle, 0 * middle], axis=-1)
+    found = stream_function(np.stack([x, y], axis=-1), velocity, periodic=False)
+    assert found == pytest.approx(y**2 / 2, abs=1e-12)

@@ -1,6 +1,7 @@
 """The table of the quantities of a result: what stands first, in words, in 80 columns."""
 
 import io
+import re
 
 import pytest
 from places import SCENES
@@ -117,3 +118,16 @@ def test_a_seal_of_known_width_leaks_over_the_whole_width():
     assert (whole.value, whole.unit) == (pytest.approx(0.25 * per_width.value), "kg/s")
     assert whole.uncertainty == pytest.approx(0.25 * per_width.uncertainty)
     assert titles(ring)[0] == "leakage, whole seal"
+
+
+def test_a_cell_in_plan_names_the_place_where_its_pressure_is_zero():
+    text = " ".join(printed(solved("dimple")).split())
+    assert "pressures count from their mean over the edges x = ±L/2 of the cell on the sliding wall" in text
+    assert "pressures count" not in printed(solved("pocket"))
+
+
+def test_a_load_that_is_round_off_is_written_as_zero():
+    """A symmetric dimple carries nothing without inertia."""
+    result = rf.solve(rf.load_scene(SCENES / "dimple.toml"), model="reynolds", resolution=16)
+    assert result["load_per_area"].value != 0
+    assert re.search(r"^load per area +0 ", printed(result), flags=re.MULTILINE)

@@ -164,6 +164,24 @@ def orthogonalise(directions, vector, projections, number):  # type: ignore[no-u
 
 
 @compiled
+def rotate(projections, rotations, target, number):  # type: ignore[no-untyped-def]
+    """Rotate column ``number`` of a Hessenberg matrix so that its last entry is zero, and the right-hand side with it.
+
+    ``rotations`` are the cosines and sines of the columns before, to which those of this one are appended.
+    """
+    for k in range(number):
+        cosine, sine = rotations[k, 0], rotations[k, 1]
+        one, other = projections[k], projections[k + 1]
+        projections[k], projections[k + 1] = cosine * one + sine * other, cosine * other - sine * one
+    size = np.sqrt(projections[number] ** 2 + projections[number + 1] ** 2)
+    cosine, sine = projections[number] / size, projections[number + 1] / size
+    rotations[number, 0], rotations[number, 1] = cosine, sine
+    projections[number], projections[number + 1] = size, 0.0
+    target[number + 1] = -sine * target[number]
+    target[number] *= cosine
+
+
+@compiled
 def combine(directions, weights, combined):  # type: ignore[no-untyped-def]
     """The sum of the first directions times weights."""
     for i in range(combined.size):

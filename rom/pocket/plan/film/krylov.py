@@ -4,11 +4,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.pocket.plan.film import kernels
 
-RESTART = 60
+RESTART = 90
 """Number of directions after which the method starts again from the solution so far."""
 
 
@@ -46,21 +47,19 @@ def minimal_residual(
         if not begin > tolerance * size or products >= most:
             return Minimised(solution=x, residual=begin / size, products=products)
         np.multiply(rest, 1 / begin, out=directions[0])
-        hessenberg, number = np.zeros((RESTART + 1, RESTART)), 0
-        target = np.zeros(RESTART + 1)
+        triangle, projections, number = np.zeros((RESTART, RESTART)), np.zeros(RESTART + 1), 0
+        rotations, target = np.zeros((RESTART, 2)), np.zeros(RESTART + 1)
         target[0] = begin
-        weights: Array = np.zeros(0)
-        while number < RESTART and products < most:
+        while number < RESTART and products < most and abs(target[number]) > tolerance * size:
             product = matrix(preconditioner(directions[number]))
+            kernels.orthogonalise(directions, product, projections, number + 1)
+            kernels.rotate(projections, rotations, target, number)
+            triangle[:, number] = projections[:RESTART]
+            triangle[number + 1 :, number] = 0.0
             products, number = products + 1, number + 1
-            kernels.orthogonalise(directions, product, hessenberg[:, number - 1], number)
-            part, wanted = hessenberg[: number + 1, :number], target[: number + 1]
-            weights = np.asarray(np.linalg.lstsq(part, wanted)[0])
-            reached = float(np.linalg.norm(part @ weights - wanted))
-            if not reached > tolerance * size or hessenberg[number, number - 1] == 0:
-                break
+        weights = scipy.linalg.solve_triangular(triangle[:number, :number], target[:number], check_finite=False)
         combined = np.empty_like(right)
-        kernels.combine(directions, weights, combined)
+        kernels.combine(directions, np.asarray(weights), combined)
         x = x + preconditioner(combined)
         rest = right - matrix(x)
         products += 1

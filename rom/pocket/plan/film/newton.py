@@ -12,10 +12,10 @@ from roughfilm.rom.pocket.plan.film.sheet import Sheet
 from roughfilm.rom.thin_film.basis import Basis
 from roughfilm.rom.thin_film.newton import NEWTON_STEPS
 
-MAX_PRODUCTS = 240
+MAX_PRODUCTS = 360
 """Largest number of products with the matrix in a Newton step."""
 
-FORCING = (1e-4, 1e-2)
+FORCING = (1e-3, 1e-2)
 """Smallest and largest tolerance of the linear system of a Newton step, relative to its right-hand side."""
 
 TOLERANCE_SHARE = 0.1

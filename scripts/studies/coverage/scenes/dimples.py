@@ -17,6 +17,9 @@ CELL = 1e-3
 MAX_EXTENT = 0.85
 """Largest extent of a dimple over the cell, of a staggered one over half of it."""
 
+MAX_POINTS = 9
+"""Largest number of points of a map along a side."""
+
 
 def draw(rng: Generator) -> Entries:
     """Return a cell of one dimple, of two, or staggered: B/L = 0.5 to 2, h/L = 0.005 to 0.2, d/h = 0.05 to 3.
@@ -70,7 +73,7 @@ def dimple(rng: Generator, room: float, film: float) -> Entries:
     width, breadth = width * shrunk, breadth * shrunk
     least = min(width * (math.cos(tip) if shape == "chevron" else 1.0), breadth)
     edge = least * rng.uniform(0.05, 0.5)
-    steep = edge if shape in ("box", "chevron") else least / 2
+    steep = edge if shape in ("box", "chevron") else least / (MAX_POINTS - 1 if shape == "points" else 2)
     depth = min(film * between(rng, 0.05, 3.0), steep * rng.uniform(0.2, 1.0))
     found: Entries = {"shape": shape, "width": length(width), "depth": length(depth)}
     if shape in ("ellipsoidal", "box", "chevron", "points"):
@@ -89,7 +92,8 @@ def dimple(rng: Generator, room: float, film: float) -> Entries:
 
 def points(rng: Generator, depth: float) -> list[list[float]]:
     """Return a map of 5 to 9 points along each side, 0 on the border, with random depths inside, m."""
-    sides = rng.integers(5, 10, 2)
+    sides = rng.integers(5, MAX_POINTS + 1, 2)
     depths = np.zeros(sides)
     depths[1:-1, 1:-1] = rng.uniform(0.3, 1.0, sides - 2)
-    return [[float(depth * one / depths.max()) for one in row] for row in depths]
+    rows: list[list[float]] = (depth * depths / depths.max()).tolist()
+    return rows

@@ -2,30 +2,18 @@
 
 import time
 
-import numpy as np
-
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.contact.foundation.timing import working_time
-from roughfilm.rom.cavitation.evaluation.grids import grid_uncertainty
 from roughfilm.rom.ladder.model import Effect, Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
-from roughfilm.rom.ladder.result import NO_COARSER_GRID, Numerics, Result, with_uncertainties
+from roughfilm.rom.ladder.result import NO_COARSER_GRID, Numerics, Result
 from roughfilm.rom.pocket.plan.grid import columns_across
-from roughfilm.rom.pocket.plan.level import Level, levels_of
+from roughfilm.rom.pocket.plan.level import levels_of, quantities_of
 from roughfilm.rom.pocket.plan.quantities import plan_fields
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.promise import promise_warnings
-from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
-
-
-def uncertainties(levels: list[Level], scene: Pocket) -> dict[str, float]:
-    """The uncertainty of each quantity of the finest level from the coarser ones; empty without any."""
-    if len(levels) == 1:
-        return {}
-    found = [level.quantities(scene) for level in levels]
-    cells = [float(np.sqrt(np.prod(level.counts))) for level in levels]
-    return {name: grid_uncertainty(cells, [one[name].value for one in found]) for name in found[0]}
+from roughfilm.rom.pocket.validity.warnings import cautions, range_warnings, ruptures
 
 
 def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:
@@ -45,7 +33,9 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     plan = scene.plan()
     counts = request.resolution, columns_across(plan, request.resolution)
     progress(0.0, f"{counts[0]} x {counts[1]} columns")
-    levels = levels_of(plan, counts, scene.reynolds_number if Effect.INERTIA in solver.keeps else 0.0)
+    with_inertia = Effect.INERTIA in solver.keeps
+    number = scene.reynolds_number if with_inertia else 0.0
+    levels = levels_of(plan, counts, with_inertia=with_inertia)
     finest = levels[0]
     if not finest.residual <= request.tolerance:
         raise ConvergenceError(
@@ -53,19 +43,18 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             f"{request.tolerance:.1e}; loosen the tolerance or make the dimples shallower",
             outcome=Outcome.STALLED,
         )
-    found = finest.quantities(scene)
-    own = uncertainties(levels, scene)
+    on_wall = finest.on_wall(number)
     return Result(
         model=solver.name,
-        quantities=with_uncertainties(found, own),
-        fields=plan_fields(scene, finest.wall),
+        quantities=quantities_of(levels, scene, number),
+        fields=plan_fields(scene, on_wall),
         provenance=provenance(scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources),
         numerics=Numerics(
             residual=finest.residual,
             iterations=finest.film.iterations,
             cpu_s=working_time() - cpu,
             wall_s=time.perf_counter() - wall,
-            degrees_of_freedom=finest.wall.pressure.size,
+            degrees_of_freedom=on_wall.pressure.size,
             resolution=request.resolution,
             tolerance=request.tolerance,
             scheme=request.scheme,
@@ -73,7 +62,8 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         warnings=(
             *cautions(scene),
             *promise_warnings(scene, solver.name),
-            *ruptures(scene, finest.range[0] - finest.wall.edge_mean),
-            *([] if own else [NO_COARSER_GRID]),
+            *range_warnings(scene, change=finest.change_of_pressure(number)),
+            *ruptures(scene, finest.pressure_range(number)[0] - on_wall.edge_mean),
+            *([] if len(levels) > 1 else [NO_COARSER_GRID]),
         ),
     )

@@ -1,0 +1,62 @@
+"""The truth of a cell in plan: Navier-Stokes flow by OpenFOAM on three grids, extrapolated.
+
+The models that run in this process are judged by their own equations on finer grids (``finer.py``).
+"""
+
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.request import Request
+from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.pocket.scene import Pocket
+from roughfilm.rom.studies.convergence import converge
+from scripts.studies.coverage.finer import finer_truth
+from scripts.studies.coverage.truth import Truth
+
+REFERENCE = "navier_stokes"
+
+
+def truth(scene: Pocket) -> Truth:
+    """Return the quantities of a cell by Navier-Stokes flow, with the uncertainty of their extrapolation.
+
+    Raises
+    ------
+    ConvergenceError
+        If OpenFOAM is not on this machine, or the flow does not converge on two grids.
+    """
+    own, runs = finer_truth(scene).own, runs_of(scene)
+    found = {name: converged(runs, name) for name in runs[-1].quantities}
+    return Truth(
+        values={name: value for name, (value, _) in found.items()},
+        uncertainty={name: uncertainty for name, (_, uncertainty) in found.items()},
+        method=f"{REFERENCE} on {', '.join(str(run.numerics.resolution) for run in runs)} columns, extrapolated",
+        own=own,
+        warnings=runs[-1].warnings,
+        by=REFERENCE,
+    )
+
+
+def runs_of(scene: Pocket) -> list[Result]:
+    """Return the results of the reference on the resolutions of its series, from coarse to fine."""
+    model, runs = find(scene.kind, REFERENCE), []
+    for resolution in model.resolutions_of(scene):
+        try:
+            runs.append(model.solve(scene, Request(resolution=resolution)))
+        except (ConvergenceError, InputError):
+            continue
+        except UnavailableError as error:
+            raise ConvergenceError(str(error)) from error
+    if len(runs) < 2:
+        raise ConvergenceError(f"{REFERENCE} converges on {len(runs)} grids; two are needed")
+    return runs
+
+
+def converged(runs: list[Result], name: str) -> tuple[float, float]:
+    """Return the extrapolated value of a quantity and its uncertainty, at least that which the finest run states."""
+    values, last = [run.quantities[name].value for run in runs], runs[-1]
+    limit = converge(
+        [run.numerics.resolution for run in runs],
+        values,
+        formal_order=2,
+        noise=last.numerics.residual * abs(values[-1]),
+    )
+    return limit.value, max(limit.uncertainty, last.quantities[name].uncertainty or 0.0)
