@@ -100,7 +100,7 @@ def film_cost(scene: Pocket, resolution: int) -> float:
     if not scene.in_plan:
         return 2.5e-3 + 5.7e-5 * resolution
     plan = scene.plan()
-    return float(1e-4 * resolution**2 * plan.breadth / plan.length)
+    return float(1.6e-4 * resolution**2 * plan.breadth / plan.length)
 
 
 def film_model(*, applies: Callable[[Pocket], Applicability], **about: Unpack[About]) -> Model[Pocket]:
@@ -148,7 +148,7 @@ def quadrature_model(*, applies: Callable[[Pocket], Applicability], **about: Unp
         tolerances=(1e-300, 1.0),
         cost=quadrature_cost,
         applies=applies,
-        compute=computed(grooves="rom.pocket.quadrature", plan="rom.pocket.plan.solve"),
+        compute=computed(grooves="rom.pocket.quadrature", plan="rom.pocket.in_plan"),
     )
 
 

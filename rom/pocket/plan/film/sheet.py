@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.pocket.plan.grid import columns_across
 from roughfilm.rom.pocket.plan.plan import Plan
 from roughfilm.rom.thin_film.columns import columns
 from roughfilm.rom.thin_film.gap import Gap
@@ -12,8 +14,8 @@ from roughfilm.rom.thin_film.gap import Gap
 RIM_DENSITY = 4.0
 """Density of nodes at the rims of dimples over that far from one; the preconditioner is for almost equal cells."""
 
-MIN_ACROSS = 4
-"""Smallest number of cells across."""
+MAX_CELLS = 65_536
+"""Largest number of cells of a grid; a linear system takes about 12 kB for each."""
 
 CENTRAL = 0.75
 """Weight of the central interpolation in the reconstruction of second order, as in the scheme LUST of OpenFOAM."""
@@ -75,8 +77,18 @@ def sheet(plan: Plan, resolution: int, *, second_order: bool = True) -> Sheet:
 
     The places at which outlines of dimples begin and end are nodes. The reconstruction of second order is ``CENTRAL``
     times the central one and the rest times that from two cells upstream; that of first order takes one cell.
+
+    Raises
+    ------
+    InputError
+        If the cell is so broad that it needs more than ``MAX_CELLS`` cells.
     """
-    across = max(MIN_ACROSS, round(resolution * plan.breadth / plan.length))
+    across = columns_across(plan, resolution)
+    if resolution * across > MAX_CELLS:
+        raise InputError(
+            f"resolution: got {resolution} columns along a cell that need {across} across it; film and film_slope take "
+            f"at most {MAX_CELLS} in all, take a lower resolution or a part of the cell as its period"
+        )
     return sheet_of(
         plan,
         _nodes(plan.film, plan.length, plan.breaks_x, resolution),

@@ -7,16 +7,19 @@ import numpy as np
 
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.timing import working_time
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.cavitation.evaluation.grids import MAX_GRID_RATIO, grid_uncertainty
 from roughfilm.rom.ladder.model import Effect, Model, Progress, silent
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
-from roughfilm.rom.ladder.result import Numerics, Result
+from roughfilm.rom.ladder.result import NO_COARSER_GRID, Numerics, Result, with_uncertainties
 from roughfilm.rom.pocket.model import SCHEMES
 from roughfilm.rom.pocket.plan.film import newton, slope
 from roughfilm.rom.pocket.plan.film.equations import Film, SheetFlow
 from roughfilm.rom.pocket.plan.film.sheet import Sheet, sheet
 from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
 from roughfilm.rom.pocket.scene import Pocket
+from roughfilm.rom.pocket.validity.promise import promise_warnings
 from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
 from roughfilm.rom.thin_film.basis import even_basis, gauss_basis, sliding_wall_slope
 from roughfilm.rom.thin_film.continuation import continued
@@ -27,6 +30,15 @@ MODES = 8
 
 BACKFLOW_LAYERS = 60
 """Number of layers across the film among which the back-flow is sought."""
+
+COARSER_GRIDS = 2
+"""Number of coarser grids from which the uncertainty follows, each with half of the columns of the one before."""
+
+MIN_COARSE = 12
+"""Smallest number of columns along the cell of a coarser grid."""
+
+COARSE_TOLERANCE = 1e-8
+"""Smallest tolerance of the residual on a coarser grid."""
 
 RESPONSE_TOLERANCE = 1e-6
 """Tolerance of the linear response to the slope, relative to the neglected force."""
@@ -92,32 +104,71 @@ def _slowest(flow: SheetFlow) -> float:
     return float(min((basis.nodes + row @ basis.shape).min() for row in flow.along))
 
 
+def coarser(
+    scene: Pocket, film: PlanFilm, resolution: int, *, tolerance: float, second_order: bool, with_slope: bool
+) -> list[PlanFilm]:
+    """The film on grids with a half and a quarter of the cells, as far as they exist and have a solution."""
+    films: list[PlanFilm] = []
+    while len(films) < COARSER_GRIDS and (resolution := resolution // 2) >= MIN_COARSE:
+        grid = sheet(scene.plan(), resolution, second_order=second_order)
+        if np.prod(grid.shape) > MAX_GRID_RATIO**2 * np.prod((films[-1] if films else film).sheet.shape):
+            break
+        try:
+            films.append(solve_sheet(grid, scene.reynolds_number, tolerance=tolerance, with_slope=with_slope))
+        except ConvergenceError:
+            break
+    return films
+
+
+def _quantities(scene: Pocket, film: PlanFilm) -> dict[str, Quantity]:
+    pressure = film.flow.pressure
+    return plan_quantities(
+        scene,
+        on_sliding_wall(film),
+        backflow=max(0.0, -_slowest(film.flow)),
+        pressure_range=(float(pressure.min()), float(pressure.max())),
+    )
+
+
 def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:
     """Solve the thin-film Navier-Stokes equations over a periodic cell, with slope if the model keeps it.
 
-    The error is of second order in the cell size (of first order with the scheme ``upwind``).
+    The error is of second order in the cell size (of first order with the scheme ``upwind``); the uncertainty of each
+    quantity follows from its values on grids with a half and a quarter of the columns.
 
     Raises
     ------
+    InputError
+        If the cell is so broad that the resolution needs too many columns.
     ConvergenceError
         If Newton's method does not converge to the tolerance.
     """
     wall, cpu = time.perf_counter(), working_time()
-    grid = sheet(scene.plan(), request.resolution, second_order=request.scheme == SCHEMES[0])
+    second_order, with_slope = request.scheme == SCHEMES[0], Effect.SLOPE in solver.keeps
     film = solve_sheet(
-        grid,
+        sheet(scene.plan(), request.resolution, second_order=second_order),
         scene.reynolds_number,
         tolerance=request.tolerance,
-        with_slope=Effect.SLOPE in solver.keeps,
+        with_slope=with_slope,
         progress=progress,
     )
-    on_wall, pressure = on_sliding_wall(film), film.flow.pressure
-    lowest, highest = float(pressure.min()), float(pressure.max())
+    films = [film]
+    films += coarser(
+        scene,
+        film,
+        request.resolution,
+        tolerance=max(request.tolerance, COARSE_TOLERANCE),
+        second_order=second_order,
+        with_slope=with_slope,
+    )
+    values, uncertainties = [_quantities(scene, one) for one in films], {}
+    if len(films) > 1:
+        cells = [float(np.sqrt(np.prod(one.sheet.shape))) for one in films]
+        uncertainties = {name: grid_uncertainty(cells, [one[name].value for one in values]) for name in values[0]}
+    on_wall = on_sliding_wall(film)
     return Result(
         model=solver.name,
-        quantities=plan_quantities(
-            scene, on_wall, backflow=max(0.0, -_slowest(film.flow)), pressure_range=(lowest, highest)
-        ),
+        quantities=with_uncertainties(values[0], uncertainties),
         fields=plan_fields(scene, on_wall),
         provenance=provenance(scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources),
         numerics=Numerics(
@@ -132,7 +183,9 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         ),
         warnings=(
             *cautions(scene),
+            *promise_warnings(scene, solver.name),
             *mode_warnings(film.flow.along, MODES),
-            *ruptures(scene, lowest - on_wall.edge_mean),
+            *ruptures(scene, float(film.flow.pressure.min()) - on_wall.edge_mean),
+            *([] if uncertainties else [NO_COARSER_GRID]),
         ),
     )

@@ -15,7 +15,7 @@ from roughfilm.rom.thin_film import newton, thin_film
 from roughfilm.rom.thin_film.basis import gauss_basis, sliding_wall_slope
 from roughfilm.rom.thin_film.gap import Gap
 
-FILM, FILM_SLOPE = (find("pocket", name) for name in ("film", "film_slope"))
+FILM_SLOPE = find("pocket", "film_slope")
 
 
 def smooth_plan(thickness, length=12.0, breadth=9.0):
@@ -45,27 +45,28 @@ def groove_load(period, reynolds_number, *, with_slope, cells=400):
     return float(strip.lengths @ (found.pressure[1:] + found.pressure[:-1]) / (2 * period))
 
 
-@pytest.fixture
-def make_cell():
-    """A function that makes a scene with a spherical dimple."""
+def make_cell(reynolds_number=160.0, **dimple):
+    """A scene with one dimple."""
+    return Pocket.model_validate(
+        {
+            "name": "cell",
+            "kind": "pocket",
+            "geometry": {
+                "length": "1 mm",
+                "breadth": "1 mm",
+                "film": "30 um",
+                "dimples": [{"shape": "spherical", "width": "300 um", "depth": "15 um", **dimple}],
+            },
+            "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
+            "motion": {"reynolds_number": reynolds_number},
+        }
+    )
 
-    def made(reynolds_number=160.0, **dimple):
-        return Pocket.model_validate(
-            {
-                "name": "cell",
-                "kind": "pocket",
-                "geometry": {
-                    "length": "1 mm",
-                    "breadth": "1 mm",
-                    "film": "30 um",
-                    "dimples": [{"shape": "spherical", "width": "300 um", "depth": "15 um", **dimple}],
-                },
-                "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
-                "motion": {"reynolds_number": reynolds_number},
-            }
-        )
 
-    return made
+@pytest.fixture(scope="module")
+def spherical():
+    """The film with slope over a spherical dimple on 48 columns."""
+    return FILM_SLOPE.solve(make_cell(), Request(resolution=48))
 
 
 @pytest.mark.parametrize("with_slope", [False, True])
@@ -129,7 +130,7 @@ def test_a_little_inertia_is_that_of_first_order():
 
 
 def _first_order(plan, nx, ny):
-    """The pressure and the shear stress on the sliding wall that inertia adds per Reynolds number, by Fourier series."""
+    """The pressure and the shear stress on the sliding wall that inertia adds per unit of Re, by Fourier series."""
     x = np.arange(nx) * plan.length / nx - plan.length / 2
     y = np.arange(ny) * plan.breadth / ny - plan.breadth / 2
     h = plan.thickness(x[:, None], y).ravel()
@@ -190,9 +191,23 @@ def test_the_linear_equations_are_the_derivative_of_the_balances():
     assert linear == pytest.approx(difference / (2 * size), abs=1e-5 * np.abs(linear).max())
 
 
-def test_a_mirrored_cell_has_a_mirrored_pressure(make_cell):
-    result = FILM_SLOPE.solve(make_cell(), Request(resolution=32))
-    pressure = result.fields["pressure"].values
+def test_with_slope_it_is_close_to_navier_stokes(spherical):
+    """Against OpenFOAM on 48 and 96 columns, extrapolated with order 2."""
+    assert spherical.quantities["load_plus"].value == pytest.approx(1.0442, rel=0.01)
+    assert spherical.quantities["load_from_corner_plus"].value == pytest.approx(0.4815, rel=0.01)
+    assert spherical.quantities["friction_plus"].value == pytest.approx(2.97695, rel=3e-4)
+
+
+def test_the_uncertainty_covers_the_difference_to_a_finer_grid(spherical):
+    coarse = FILM_SLOPE.solve(make_cell(), Request(resolution=32))
+    for name in ("load_plus", "friction_plus", "pressure_max_plus", "load_from_corner_plus"):
+        fine, uncertainty = spherical.quantities[name], coarse.quantities[name].uncertainty
+        assert abs(coarse.quantities[name].value - fine.value) < uncertainty
+        assert fine.uncertainty < uncertainty < 0.2 * abs(fine.value)
+
+
+def test_a_mirrored_cell_has_a_mirrored_pressure(spherical):
+    pressure = spherical.fields["pressure"].values
     assert pressure == pytest.approx(pressure[:, ::-1], abs=1e-4 * np.abs(pressure).max())
 
 
