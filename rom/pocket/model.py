@@ -148,7 +148,7 @@ def quadrature_model(*, applies: Callable[[Pocket], Applicability], **about: Unp
         tolerances=(1e-300, 1.0),
         cost=quadrature_cost,
         applies=applies,
-        compute=computed(grooves="rom.pocket.quadrature", plan="rom.pocket.plan.solve"),
+        compute=computed(grooves="rom.pocket.quadrature", plan="rom.pocket.in_plan"),
     )
 
 

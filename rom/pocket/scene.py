@@ -66,7 +66,7 @@ def geometry_tag(entries: Any) -> str:
     return IN_PLAN if isinstance(entries, PlanGeometry) else GROOVES
 
 
-LAWS_IN_PLAN = "pocket_in_plan"
+LAWS_IN_PLAN = "dimples"
 """Name of the error laws of cells in plan in the table of laws."""
 
 

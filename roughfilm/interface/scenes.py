@@ -116,6 +116,12 @@ def replace(scene: Scene, key: str | Mapping[str, object], value: object = ...) 
     >>> slow = rf.replace(scene, {"motion.reynolds_number": 40, "lubricant.viscosity": "8 mPa*s"})
     >>> slow.reynolds_number
     40.0
+
+    A number selects an entry of a list of tables:
+
+    >>> dimple = rf.load_scene("scripts/examples/scenes/dimple.toml")
+    >>> rf.replace(dimple, "geometry.dimples.0.depth", "9 um").geometry.depth
+    9e-06
     """
     several = isinstance(key, Mapping)
     if several != (value is ...):

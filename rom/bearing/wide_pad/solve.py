@@ -16,7 +16,7 @@ from roughfilm.rom.bearing.totals.reported import in_order
 from roughfilm.rom.bearing.warnings import rupture_warnings
 from roughfilm.rom.bearing.wide_pad.gap import pad_gap
 from roughfilm.rom.bearing.wide_pad.quantities import pad_quantities
-from roughfilm.rom.cavitation.evaluation.grids import MAX_GRID_RATIO, grid_uncertainty
+from roughfilm.rom.cavitation.evaluation.grids import GRID_SAFETY_FACTOR, MAX_GRID_RATIO, ORDERS
 from roughfilm.rom.cavitation.shape import CELLS_PER_FEATURE
 from roughfilm.rom.ladder.model import Effect, Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
@@ -145,19 +145,24 @@ def _on(strip: Strip, before: _Level) -> StripFlow:
 
 
 def _uncertainty(levels: Sequence[_Level]) -> dict[str, float]:
-    """The uncertainty of each quantity in its unit, from those on coarser grids; empty without one."""
+    """The uncertainty of each quantity in its unit, from those on coarser grids; empty without one.
+
+    It is ``GRID_SAFETY_FACTOR`` times the largest error that the differences give at the lowest order: along smooth
+    walls contributions to the error cancel on some grids, so that an order that is observed there may be too high.
+    """
     used = levels[:1]
     for level in levels[1:]:
         if level.strip.lengths.size <= MAX_GRID_RATIO * used[-1].strip.lengths.size:
             used = [*used, level]
-    if len(used) == 1:
-        return {}
-    cells = [level.strip.lengths.size for level in used]
-    return {
-        name: 0.0 if name in EXACT else grid_uncertainty(cells, [level.quantities[name].value for level in used])
-        for name in levels[0].quantities
-        if all(name in level.quantities for level in used)
-    }
+    finest, *coarser = used
+    finer = [(finest.strip.lengths.size / level.strip.lengths.size) ** ORDERS[0] - 1 for level in coarser]
+    found = {}
+    for name, quantity in finest.quantities.items() if coarser else ():
+        others = [level.quantities[name].value for level in coarser if name in level.quantities]
+        errors = [abs(quantity.value - other) / ratio for other, ratio in zip(others, finer, strict=False)]
+        if len(errors) == len(coarser):
+            found[name] = 0.0 if name in EXACT else GRID_SAFETY_FACTOR * max(errors)
+    return found
 
 
 def _grid_warnings(scene: Bearing, strip: Strip) -> list[str]:

@@ -148,9 +148,12 @@ def _over(change: float, found: _Films, quantity: str) -> float:
 def _ruptured(scene: Pocket) -> _Films | None:
     """The films of a scene whose film ruptures; None if it does not.
 
-    A film with inertia to first order is judged first, over grooves then one with all of it, if it converges.
+    A film with inertia to first order is judged first, over grooves then one with all of it, if it converges. The film
+    without inertia need not meet its tolerance.
     """
-    reynolds, inertia = REYNOLDS.solve(scene), _by(INERTIAL_REYNOLDS, scene)
+    reynolds, inertia = _by(REYNOLDS, scene), _by(INERTIAL_REYNOLDS, scene)
+    if reynolds is None:
+        reynolds = REYNOLDS.solve(scene, Request(resolution=REYNOLDS.resolution_of(scene)))
     if not any(_falls(scene, one) for one in (reynolds, inertia) if one is not None):
         return None
     if not scene.in_plan:
@@ -161,7 +164,7 @@ def _ruptured(scene: Pocket) -> _Films | None:
 
 
 def _by(model: Model[Pocket], scene: Pocket, cells: int | None = None) -> Result | None:
-    """The result of a model with inertia; None if it does not converge."""
+    """The result of a model; None if it does not converge."""
     try:
         return model.solve(scene, Request(resolution=cells))
     except ConvergenceError:

@@ -52,6 +52,12 @@ class Level:
         """The geometric mean of the numbers of columns along and across."""
         return float(np.sqrt(self.film.pressure.size))
 
+    def change_of_pressure(self, reynolds_number: float) -> float | None:
+        """The range of the change of pressure by inertia over that of the pressure; None without inertia."""
+        if self.change is None:
+            return None
+        return reynolds_number * float(np.ptp(self.change.pressure) / np.ptp(self.film.pressure))
+
     def on_wall(self, reynolds_number: float) -> OnSlidingWall:
         """Pressure and shear stress on the sliding wall, with inertia to first order in a Reynolds number."""
         pressure, stress = self.film.pressure, shear_stress(self.film)

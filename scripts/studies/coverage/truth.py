@@ -48,8 +48,7 @@ def truth_of(scene: Scene) -> Truth:
     ConvergenceError
         If the solution does not converge; the scene is then left out of the study, and counted.
     """
-    found: Any = importlib.import_module(f"scripts.studies.coverage.truths.{kind_of_scene(scene).name_of_laws}").truth(
-        scene
-    )
+    name = kind_of_scene(scene).name_of_laws
+    found: Any = importlib.import_module(f"scripts.studies.coverage.truths.{name}").truth(scene)
     assert isinstance(found, Truth)
     return found

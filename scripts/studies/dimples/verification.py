@@ -108,7 +108,7 @@ def steep(solved: Solved) -> Iterator[Row]:
     The groove's load by finite elements is 0.2046 (:doc:`pockets`).
     """
     scenes = {
-        f"cap of slope {slope}": (cell(cap, length=0.5, breadth=0.5), (20, 40, 80)) for slope, cap in STEEP.items()
+        f"cap of slope {slope}": (cell(cap, length=0.5, breadth=0.5), (24, 48, 72)) for slope, cap in STEEP.items()
     }
     scenes["groove"] = cell(GROOVE, breadth=0.1, reynolds_number=40.0), (60, 120, 180)
     for words, (one, columns) in scenes.items():

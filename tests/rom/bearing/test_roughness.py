@@ -163,6 +163,8 @@ def test_models_of_smooth_walls_report_the_roughness():
     assert {name for name, fits in result.items() if fits.applies} == {model.name for model in MODELS} - {
         "infinitely_wide",
         "mixed",
+        "film",
+        "film_slope",
     }
     for name in ("reynolds", "reynolds_incompressible", "reynolds_cavitating"):
         assert "treats the wall as smooth: rms height over film = 0.071" in result[name].reason

@@ -37,7 +37,9 @@ def test_the_lattice():
         "reynolds",
         "infinitely_wide",
         "reynolds_incompressible",
+        "film",
         "reynolds_cavitating",
+        "film_slope",
         "homogenized",
         "direct",
         "mixed",
@@ -45,6 +47,7 @@ def test_the_lattice():
     steps = {(a.name, b.name): effect for a in MODELS for b, effect in one_effect_away(a, MODELS)}
     assert steps == {
         ("reynolds", "reynolds_incompressible"): Effect.CAVITATION,
+        ("reynolds", "film"): Effect.INERTIA,
         ("reynolds_incompressible", "reynolds_cavitating"): Effect.PRESSURE_DEPENDENCE,
         ("infinitely_wide", "reynolds_cavitating"): Effect.SIDE_FLOW,
         ("reynolds_cavitating", "homogenized"): Effect.ROUGHNESS,
@@ -58,6 +61,8 @@ def test_contract(model, tips):
     scene = load_scene(SCENES / "journal.toml", ROUGH if Effect.ROUGHNESS in model.keeps else [])
     if Effect.DEFORMATION in model.keeps:
         scene = tips.scene(scene_entries(scene)["geometry"] | {"eccentricity": 0.95})
+    if Effect.INERTIA in model.keeps:
+        scene = load_scene(SCENES / "wide_pad.toml")
     seen = []
     result = model.solve(scene, Request(resolution=32), progress=lambda done, words: seen.append((done, words)))
     assert result.model == model.name

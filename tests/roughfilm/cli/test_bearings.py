@@ -16,6 +16,9 @@ from roughfilm.rom.ladder.store import load
 
 SLIDER = SCENES / "parabolic_slider.toml"
 
+WITH_INERTIA_OR_SLOPE = ("film", "film_slope", "stokes", "navier_stokes")
+"""The models of infinitely wide pads with a density and without pressure dependence."""
+
 
 def run(*arguments):
     return CliRunner().invoke(app, [str(argument) for argument in arguments])
@@ -61,7 +64,7 @@ def test_solve_shows_how_sure_it_is():
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--model", "film"], "--model: got 'film'; it must be one of reynolds, infinitely_wide"),
+        (["--model", "thin"], "--model: got 'thin'; it must be one of reynolds, infinitely_wide"),
         (["--model", "reynolds", "--resolution", "4"], "--resolution: got 4; reynolds takes 8 to"),
         (["--model", "reynolds", "--set", "geometry.shape=oval"], "scene.geometry.shape: got 'oval'"),
         (["--model", "reynolds", "--scheme", "upwind"], "--scheme: got 'upwind' for reynolds; it offers no choice"),
@@ -98,7 +101,7 @@ def test_compare_on_a_line(tmp_path):
         ("reynolds", "reynolds_incompressible", "cavitation"),
         ("reynolds_incompressible", "reynolds_cavitating", "pressure dependence"),
     }
-    assert set(told["absent"]) == {"infinitely_wide", "homogenized", "direct", "mixed"}
+    assert set(told["absent"]) == {"infinitely_wide", "homogenized", "direct", "mixed", *WITH_INERTIA_OR_SLOPE}
     page = page_of(tmp_path / "study" / "report.html")
     assert page.outside == []
     assert page.tags.count("svg") == 3
@@ -116,7 +119,7 @@ def test_compare_in_the_plane(tmp_path):
     result = run("compare", SCENES / "journal.toml", "--out", tmp_path / "study", "--json")
     assert result.exit_code == 0, result.stderr
     told = json.loads(result.stdout)
-    assert set(told["absent"]) == {"homogenized", "direct", "mixed"}
+    assert set(told["absent"]) == {"homogenized", "direct", "mixed", *WITH_INERTIA_OR_SLOPE}
     assert {d["effect"] for d in told["differences"] if d["effect"]} == {
         "cavitation",
         "pressure dependence",

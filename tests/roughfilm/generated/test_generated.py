@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from batches import wait_for
 from foamlib import FoamFile
+from places import SCENES
 from slurm_node import SlurmNode
 from typer.testing import CliRunner
 
@@ -269,6 +270,16 @@ def test_a_study_without_openfoam_is_refused(tmp_path):
     done = run("generate", tmp_path / "study.toml", "--out", tmp_path / "out")
     assert done.exit_code == 2
     assert "study.models: none of them runs OpenFOAM; name stokes or navier_stokes" in done.stderr
+
+
+def test_a_bearing_has_cases_if_it_is_a_wide_pad_and_otherwise_reasons(tmp_path):
+    written = run("generate", SCENES / "textured_slider.toml", "--resolution", "24", "--out", tmp_path / "pad")
+    assert written.exit_code == 0
+    assert "1 OpenFOAM case" in written.stdout  # the scene has no density, which navier_stokes needs
+    assert (tmp_path / "pad" / "stokes" / "Allrun").is_file()
+    done = run("generate", SCENES / "journal.toml", "--out", tmp_path / "journal")
+    assert done.exit_code == 2
+    assert "no model solves it in OpenFOAM: stokes: the flow is resolved across the film of pads only" in done.stderr
 
 
 @pytest.mark.parametrize("text", ["", "{}", "[]", '{"version": 1}', '{"version": 2}', '{"version": 1, "generated": 3}'])

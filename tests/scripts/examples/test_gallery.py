@@ -205,7 +205,7 @@ def test_a_dimple_carries_by_inertia_alone_what_openfoam_finds() -> None:
 
 
 def test_a_dimple_carries_less_than_a_groove_per_area_and_a_short_one_more_per_volume() -> None:
-    values = values_of("pockets/dimple_and_groove")
+    values = values_of("pockets/groove_or_dimple")
     assert (np.diff(values["over_area"]) < 0).all()
     assert values["over_area"][[0, -1]] == pytest.approx([0.93, 0.81], abs=0.01)
     assert values["over_volume"][[0, -1]] == pytest.approx([1.24, 1.08], abs=0.01)

@@ -66,12 +66,14 @@ def test_a_cell_in_plan_has_numbers_and_laws_of_its_own():
     assert 0 < found["loaded"] < 1
     assert set(found) <= set(SYMBOLS)
     own = kind_of_scene(scene)
-    assert own.name_of_laws == "pocket_in_plan" == kind_of_laws("pocket_in_plan").name_of_laws
+    assert own.name_of_laws == "dimples" == kind_of_laws("dimples").name_of_laws
     assert kind_of_scene(pocket(width="0.2 mm", depth="15 um")).name_of_laws == "pocket"
 
 
-def test_no_error_of_a_cell_in_plan_is_stated_by_the_laws_of_grooves():
-    result = rf.solve(pocket(**CELL), model="reynolds")
+@pytest.mark.parametrize("resolution", [32, 128])
+def test_no_error_of_a_cell_in_plan_is_stated_by_the_laws_of_grooves(resolution):
+    """On the finest usual grid neither: a model with an order of convergence is exact on none."""
+    result = rf.solve(pocket(**CELL), model="reynolds", resolution=resolution)
     assert not result.expected_error
     assert "load, friction unknown" in error_lines(kind_of_scene(pocket(**CELL)), result)
 

@@ -3,6 +3,7 @@
 import pytest
 
 import roughfilm as rf
+from roughfilm.ladder import find
 from roughfilm.rom.advice.laws import on_grid, table
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.pocket.validity.numbers import numbers
@@ -51,3 +52,26 @@ def test_a_film_without_load_in_any_model_has_no_warning():
     geometry = {"length": "1 mm", "film": "10 um", "width": "0.3 mm", "depth": "5 um"}
     scene = read_scene({**CANCELLING, "geometry": geometry})
     assert not cancellations(scene, load=1e-12, lowest=-1.0, highest=1.0)
+
+
+def cell(reynolds_number, **dimple):
+    dimple = {"shape": "conical", "width": "0.3 mm", "depth": "30 um", **dimple}
+    geometry = {"length": "1 mm", "film": "30 um", "breadth": "0.5 mm", "dimples": [dimple]}
+    return read_scene({**CANCELLING, "geometry": geometry, "motion": {"reynolds_number": reynolds_number}})
+
+
+@pytest.mark.parametrize(
+    ("model", "scene", "words"),
+    [
+        ("reynolds", cell(1), None),
+        ("reynolds", cell(100), "which is left out"),
+        ("inertial_reynolds", cell(1), None),
+        ("inertial_reynolds", cell(150), "higher orders are left out"),
+        ("inertial_reynolds", cell(0.001, width="0.1 mm", depth="60 um"), "the film over it is not thin"),
+        ("reynolds", cell(1500), "turbulent"),
+        ("inertial_reynolds", cell(1500), "turbulent"),
+    ],
+)
+def test_models_in_plan_warn_where_they_leave_their_range(model, scene, words):
+    warnings = find("pocket", model).solve(scene).warnings
+    assert warnings == () if words is None else any(words in one for one in warnings)

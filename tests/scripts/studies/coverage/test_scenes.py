@@ -8,7 +8,7 @@ from roughfilm.rom.ladder.kind import kind_of_scene
 from roughfilm.rom.ladder.scene import scene_entries
 from scripts.studies.coverage.drawing import drawn
 from scripts.studies.coverage.scenes.bearing import SHAPES
-from scripts.studies.coverage.scenes.pocket_in_plan import SHAPES as DIMPLES
+from scripts.studies.coverage.scenes.dimples import SHAPES as DIMPLES
 
 COUNT = 60
 
@@ -29,7 +29,7 @@ def test_bearings_have_every_shape_texture_and_feed(bearings):
     assert any(one.motion.speed < 0 for one in bearings)
 
 
-@pytest.mark.parametrize("kind", ["bearing", "dry_contact", "seal", "rough_gap", "pocket_in_plan"])
+@pytest.mark.parametrize("kind", ["bearing", "dry_contact", "seal", "rough_gap", "dimples"])
 def test_a_seed_is_one_scene(kind):
     first, again, other = (scene_entries(drawn(kind, seed)) for seed in (20003, 20003, 20004))
     assert first == again
@@ -44,8 +44,8 @@ def test_rough_gaps_are_between_ridges_or_surfaces_and_open_or_pressed():
 
 
 def test_cells_in_plan_have_every_shape_and_arrangement():
-    cells = [drawn("pocket_in_plan", seed) for seed in range(20000, 20040)]
-    assert {kind_of_scene(one).name_of_laws for one in cells} == {"pocket_in_plan"}
+    cells = [drawn("dimples", seed) for seed in range(20000, 20040)]
+    assert {kind_of_scene(one).name_of_laws for one in cells} == {"dimples"}
     assert {one.shape for cell in cells for one in cell.geometry.dimples} == set(DIMPLES)
     assert {cell.geometry.arrangement for cell in cells} == {"aligned", "staggered"}
     assert {len(cell.geometry.dimples) for cell in cells} == {1, 2}

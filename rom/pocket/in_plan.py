@@ -13,7 +13,7 @@ from roughfilm.rom.pocket.plan.level import levels_of, quantities_of
 from roughfilm.rom.pocket.plan.quantities import plan_fields
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.promise import promise_warnings
-from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
+from roughfilm.rom.pocket.validity.warnings import cautions, range_warnings, ruptures
 
 
 def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:
@@ -62,6 +62,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         warnings=(
             *cautions(scene),
             *promise_warnings(scene, solver.name),
+            *range_warnings(scene, change=finest.change_of_pressure(number)),
             *ruptures(scene, finest.pressure_range(number)[0] - on_wall.edge_mean),
             *([] if len(levels) > 1 else [NO_COARSER_GRID]),
         ),
