@@ -18,7 +18,7 @@ def applies(scene: Bearing) -> Applicability:
 MODEL = openfoam_model(
     CASES,
     name="navier_stokes",
-    summary="Navier-Stokes equations of an infinitely wide pad: slope and inertia in full, no cavitation",
+    summary="wide pad: slope and inertia in full",
     keeps=frozenset({Effect.SIDE_FLOW, Effect.INERTIA, Effect.SLOPE}),
     sources=SOURCES,
     applies=applies,

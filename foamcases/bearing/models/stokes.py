@@ -14,7 +14,7 @@ def applies(scene: Bearing) -> Applicability:
 MODEL = openfoam_model(
     CASES,
     name="stokes",
-    summary="Stokes equations of an infinitely wide pad: the whole film resolved, inertia negligible",
+    summary="wide pad with the whole film resolved, creeping",
     keeps=frozenset({Effect.SIDE_FLOW, Effect.SLOPE}),
     sources=SOURCES,
     applies=applies,

@@ -6,7 +6,7 @@ from roughfilm.rom.ladder.model import Effect
 
 MODEL = bearing_model(
     name="direct",
-    summary="Reynolds equation with mass-conserving cavitation, all waves of the roughness resolved",
+    summary="adds roughness with every wave resolved",
     keeps=frozenset(
         {
             Effect.SIDE_FLOW,

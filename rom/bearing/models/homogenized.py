@@ -6,7 +6,7 @@ from roughfilm.rom.ladder.model import Effect
 
 MODEL = bearing_model(
     name="homogenized",
-    summary="homogenized Reynolds equation with mass-conserving cavitation: roughness by its flow factors",
+    summary="adds roughness by its flow factors",
     keeps=frozenset({Effect.SIDE_FLOW, Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE, Effect.ROUGHNESS}),
     sources=(*SOURCES, "10.1016/j.jmaa.2005.09.036"),
     applies=homogenized_applies,

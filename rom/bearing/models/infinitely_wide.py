@@ -36,7 +36,7 @@ def applies(scene: Bearing) -> Applicability:
 
 MODEL = bearing_model(
     name="infinitely_wide",
-    summary="one line of the film, with cavitation and any compressibility, without side flow",
+    summary="one line with cavitation, without side flow",
     keeps=frozenset({Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE}),
     sources=SOURCES,
     applies=applies,

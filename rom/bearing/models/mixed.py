@@ -16,7 +16,7 @@ def applies(scene: Bearing) -> Applicability:
 
 MODEL = bearing_model(
     name="mixed",
-    summary="homogenized Reynolds equation with mass-conserving cavitation, and asperities that touch and deform",
+    summary="adds asperities that touch and deform",
     keeps=frozenset(
         {
             Effect.SIDE_FLOW,

@@ -22,7 +22,7 @@ def applies(scene: Bearing) -> Applicability:
 
 MODEL = bearing_model(
     name="reynolds",
-    summary="Reynolds equation, incompressible, without cavitation: the simplest film",
+    summary="Reynolds equation without cavitation",
     keeps=frozenset({Effect.SIDE_FLOW}),
     sources=("10.1098/rstl.1886.0005",),
     applies=applies,

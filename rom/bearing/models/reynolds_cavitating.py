@@ -12,7 +12,7 @@ def applies(scene: Bearing) -> Applicability:  # noqa: ARG001
 
 MODEL = bearing_model(
     name="reynolds_cavitating",
-    summary="Reynolds equation with mass-conserving cavitation, for any compressibility",
+    summary="adds cavitation, for any compressibility",
     keeps=frozenset({Effect.SIDE_FLOW, Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE}),
     sources=SOURCES,
     applies=applies,

@@ -22,7 +22,7 @@ def applies(scene: Bearing) -> Applicability:
 
 MODEL = bearing_model(
     name="reynolds_incompressible",
-    summary="Reynolds equation with mass-conserving cavitation, incompressible",
+    summary="adds cavitation; incompressible",
     keeps=frozenset({Effect.SIDE_FLOW, Effect.CAVITATION}),
     sources=SOURCES,
     applies=applies,

@@ -49,7 +49,7 @@ def wide_pad_model(*, left_out: str, **about: Unpack[About]) -> Model[Bearing]:
         **about,
         kind="bearing",
         resolutions=resolutions,
-        resolution_meaning="cells along the film, each with 10 polynomials across it",
+        resolution_meaning="cells along the film",
         residual_meaning="largest imbalance of momentum in a cell, relative to the largest force in one",
         order=2,
         tolerance=RESIDUAL_TOLERANCE,

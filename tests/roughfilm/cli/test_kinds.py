@@ -66,7 +66,7 @@ def test_every_kind_has_a_view_that_names_its_quantities_and_models():
 def test_models_are_shown_by_kind_of_scene():
     shown = " ".join(run("models").stdout.split())
     assert "dry_contact: a rough surface pressed on a flat one greenwood_williamson" in shown
-    assert "pocket: a" in shown
+    assert "pocket: grooves or dimples under a sliding wall reynolds" in shown
 
 
 def test_solve(scene, tmp_path):

@@ -243,7 +243,8 @@ def test_a_grid_that_fails_is_told_in_one_line_and_the_others_are_judged(pocket_
 
 
 def test_without_a_formal_order_there_is_no_grid_convergence(pocket_file, tmp_path, monkeypatch, capsys):
-    spectral = tuple(model for model in models() if model.order is None)
+    scene = load_scene(pocket_file)
+    spectral = tuple(model for model in models("pocket") if model.order_of(scene) is None)
     monkeypatch.setattr(compare, "models", lambda kind: of_kind(spectral, kind))
     assert compared(capsys, pocket_file, tmp_path)["convergence"] == {}
     assert "Grid convergence" not in (tmp_path / "report.html").read_text()
