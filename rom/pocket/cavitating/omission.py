@@ -52,12 +52,12 @@ class _Films:
 
     Attributes
     ----------
-    reynolds, cavitating : results without inertia, without and with cavitation.
+    reynolds, cavitating : results without inertia, without and with cavitation; None if the latter does not converge.
     inertia : result with inertia that stays whole; None if no model has one.
     """
 
     reynolds: Result
-    cavitating: Result
+    cavitating: Result | None
     inertia: Result | None
 
     def value(self, result: Result, quantity: str) -> float:
@@ -76,7 +76,7 @@ class _Films:
     def changed(self, quantity: str) -> tuple[float, float]:
         """The changes of a quantity by cavitation and by inertia, each without the other."""
         without = self.value(self.reynolds, quantity)
-        by_cavitation = abs(self.value(self.cavitating, quantity) - without)
+        by_cavitation = inf if self.cavitating is None else abs(self.value(self.cavitating, quantity) - without)
         return by_cavitation, abs(self.value(self.whole, quantity) - without)
 
 
@@ -138,7 +138,7 @@ def _inertia(scene: Pocket, found: _Films | None, quantity: str) -> Omission:
 
 def _over(change: float, found: _Films, quantity: str) -> float:
     """A change over the size of the quantity with cavitation."""
-    if change == 0 or quantity not in found.cavitating.quantities:
+    if change == 0 or found.cavitating is None or quantity not in found.cavitating.quantities:
         return 0.0 if change == 0 else inf
     size = kind_of(found.cavitating).scale_of(found.cavitating, quantity)
     return change / size if size > 0 else inf
@@ -160,7 +160,7 @@ def _ruptured(scene: Pocket) -> _Films | None:
         inertia = _by(FILM_SLOPE, scene, CELLS) or _by(FILM, scene, CELLS) or inertia
     if not _falls(scene, inertia or reynolds):
         return None
-    return _Films(reynolds=reynolds, cavitating=REYNOLDS_CAVITATING.solve(scene), inertia=inertia)
+    return _Films(reynolds=reynolds, cavitating=_by(REYNOLDS_CAVITATING, scene), inertia=inertia)
 
 
 def _by(model: Model[Pocket], scene: Pocket, cells: int | None = None) -> Result | None:
