@@ -16,7 +16,7 @@ def applies(scene: Pocket) -> Applicability:
 MODEL = openfoam_model(
     CASES,
     name="navier_stokes",
-    summary="adds slope and inertia in full: the most complete model",
+    summary="adds slope and inertia in full",
     keeps=frozenset({Effect.SLOPE, Effect.INERTIA}),
     sources=SOURCES,
     applies=applies,

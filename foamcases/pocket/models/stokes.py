@@ -14,7 +14,7 @@ def applies(scene: Pocket) -> Applicability:
 MODEL = openfoam_model(
     CASES,
     name="stokes",
-    summary="adds slope: the whole film resolved, inertia negligible",
+    summary="adds slope in full; inertia is negligible",
     keeps=frozenset({Effect.SLOPE}),
     sources=SOURCES,
     applies=applies,
