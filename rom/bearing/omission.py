@@ -1,24 +1,15 @@
 """The effects that models of a bearing leave out and the error laws do not count: inertia, or cavitation and slope."""
 
-from dataclasses import dataclass, field
-from functools import lru_cache
-
-from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.rom.bearing.effects.inertia import inertia_obstacle
 from roughfilm.rom.bearing.equilibrium.expected import expected_film, expected_scene
 from roughfilm.rom.bearing.inertia import inertia
-from roughfilm.rom.bearing.models.film import MODEL as FILM
-from roughfilm.rom.bearing.models.film_slope import MODEL as FILM_SLOPE
-from roughfilm.rom.bearing.models.reynolds import MODEL as REYNOLDS
-from roughfilm.rom.bearing.models.reynolds_incompressible import MODEL as REYNOLDS_INCOMPRESSIBLE
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.quantities import bearing_quantities
-from roughfilm.rom.bearing.scene import Bearing, Inlet
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.wide_pad.changes import wide_pad
 from roughfilm.rom.cavitation.solve import load_loops, solve
-from roughfilm.rom.ladder.kind import Omission, kind_of, kind_of_scene
+from roughfilm.rom.ladder.kind import Omission, kind_of_scene
 from roughfilm.rom.ladder.model import Effect, Model
-from roughfilm.rom.ladder.request import Request
-from roughfilm.rom.ladder.result import Result
 
 CELLS = {True: 512, False: 64}
 """Number of cells along a side, for an infinitely wide film (True) and for others."""
@@ -30,95 +21,8 @@ MIN_STEEPNESS = 0.5
 
 INERTIA_FIELDS = {"load_per_width": "load", "friction_per_width": "friction"}
 
-NEGLIGIBLE_DENSITY = 1e-9
-"""Density of a liquid without inertia, kg/m³."""
-
 SMALLEST_PART = 1e-6
 """Relative change below which an effect is not mentioned."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class WidePad:
-    """An infinitely wide pad by models that differ by one effect, each pair of them on one grid.
-
-    Attributes
-    ----------
-    film, creeping, slope : with inertia, without it, and with inertia and slope.
-    reynolds, cavitating : by the Reynolds equation without cavitation and with it.
-    """
-
-    film: Result
-    creeping: Result
-    slope: Result
-    reynolds: Result
-    cavitating: Result
-
-    def change(self, quantity: str, one: Result, other: Result) -> float:
-        """The difference of a quantity between two results over its size in the film with inertia; at least 0."""
-        if any(quantity not in result.quantities for result in (one, other, self.film)):
-            return 0.0
-        size = kind_of(self.film).scale_of(self.film, quantity)
-        return abs(one[quantity].value - other[quantity].value) / size if size > 0 else 0.0
-
-    def by_inertia(self, quantity: str) -> float:
-        """The relative change of a quantity by inertia."""
-        return self.change(quantity, self.film, self.creeping)
-
-    def by_slope(self, quantity: str) -> float:
-        """The relative change of a quantity by slope to second order."""
-        return self.change(quantity, self.slope, self.film)
-
-    def by_cavitation(self, quantity: str) -> float:
-        """The relative change of a quantity by cavitation; 0 for a film that does not rupture."""
-        return self.change(quantity, self.cavitating, self.reynolds) if self.ruptures else 0.0
-
-    @property
-    def ruptures(self) -> bool:
-        """Whether the film cavitates."""
-        return self.cavitating["cavitated_fraction"].value > 0
-
-
-def wide_pad(scene: Bearing) -> WidePad | None:
-    """The quantities of an infinitely wide pad with and without effects; None where inertia is not resolved."""
-    return _solved(_Question(entries=scene.model_dump_json(exclude_none=True, exclude={"name"}), scene=scene))
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Question:
-    """A scene, which is compared by its entries."""
-
-    entries: str
-    scene: Bearing = field(compare=False)
-
-
-@lru_cache(maxsize=16)
-def _solved(question: _Question) -> WidePad | None:
-    scene = question.scene
-    if not FILM.applies(scene).applies:
-        return None
-
-    def solved(model: Model[Bearing], case: Bearing = scene) -> Result:
-        return model.solve(case, Request(resolution=model.resolutions_of(scene)[-2]))
-
-    try:
-        return WidePad(
-            film=solved(FILM),
-            creeping=solved(FILM, _creeping(scene)),
-            slope=solved(FILM_SLOPE),
-            reynolds=solved(REYNOLDS),
-            cavitating=solved(REYNOLDS_INCOMPRESSIBLE),
-        )
-    except ConvergenceError:
-        return None
-
-
-def _creeping(scene: Bearing) -> Bearing:
-    """The same pad with a negligible density, and with the same pressure at its inlet."""
-    lubricant, boundary = scene.lubricant.model_copy(update={"density": NEGLIGIBLE_DENSITY}), scene.boundary
-    if boundary.inlet.theta is None:
-        inlet = Inlet.model_construct(pressure=scene.inlet_pressure)
-        boundary = boundary.model_copy(update={"inlet": inlet})
-    return scene.model_copy(update={"lubricant": lubricant, "boundary": boundary})
 
 
 def missing(scene: Bearing, model: Model[Bearing]) -> float:

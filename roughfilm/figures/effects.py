@@ -1,7 +1,7 @@
 """Figures of the effects of a bearing, switched on one after the other, and each switched off alone."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -23,23 +23,23 @@ ALONE_HEIGHT = 0.18
 
 @dataclass(frozen=True, kw_only=True)
 class Panel:
-    """A quantity of a study that is drawn, at a film or under a load in words, with the contribution of inertia."""
+    """A quantity of a study that is drawn, at a film or under a load in words, with changes that it does not count."""
 
     study: EffectStudy
     name: str
     how: Shown
     where: str
-    beside: Amount | None = None
+    beside: Mapping[str, Amount] = field(default_factory=dict)
 
 
 def waterfall(panels: Sequence[Panel]) -> str:
     """A panel for each quantity, a row for each effect; the studies have the same effects."""
     names = [one.name for one in panels[0].study.contributions]
-    inertia = any(panel.beside is not None for panel in panels)
-    rows = ["plain film", *names, "all effects", *(["inertia, not counted"] if inertia else [])]
+    beside = list(dict.fromkeys(effect for panel in panels for effect in panel.beside))
+    rows = ["plain film", *names, "all effects", *(f"{effect}, not counted" for effect in beside)]
     figure = Figure(figsize=(10.4, 1.6 + 0.42 * len(rows)), layout="constrained")
     for axes, panel in zip(figure.subplots(1, len(panels), sharey=True, squeeze=False)[0], panels, strict=True):
-        _panel(axes, panel.study, panel.name, panel.how, panel.beside)
+        _panel(axes, panel.study, panel.name, panel.how, [panel.beside.get(effect) for effect in beside])
         axes.set_xlabel(f"{panel.how.title}, {panel.how.unit}")
         axes.set_title(panel.where, fontsize=9)
         axes.grid(visible=False, axis="y")
@@ -55,7 +55,7 @@ def waterfall(panels: Sequence[Panel]) -> str:
     return svg(figure)
 
 
-def _panel(axes: Axes, study: EffectStudy, name: str, how: Shown, beside: Amount | None) -> None:
+def _panel(axes: Axes, study: EffectStudy, name: str, how: Shown, beside: Sequence[Amount | None]) -> None:
     full = how.factor * study.full[name].value
     axes.axvline(full, color=WHOLE, linewidth=0.8, linestyle=":")
     if (plain := study.plain.get(name)) is not None:
@@ -75,8 +75,9 @@ def _panel(axes: Axes, study: EffectStudy, name: str, how: Shown, beside: Amount
             axes.errorbar(start, place, xerr=how.factor * alone.uncertainty, color="0.25", linewidth=0.8, capsize=1.5)
     count = len(study.contributions) + 1
     _bar(axes, count, 0.0, full, how.factor * study.full[name].uncertainty, WHOLE)
-    if beside is not None:
-        _bar(axes, count + 1, full, full + how.factor * beside.value, how.factor * beside.uncertainty, BESIDE)
+    for row, added in enumerate(beside, start=count + 1):
+        if added is not None:
+            _bar(axes, row, full, full + how.factor * added.value, how.factor * added.uncertainty, BESIDE)
 
 
 def _bar(axes: Axes, row: float, start: float, end: float, error: float, colour: str) -> None:

@@ -13,6 +13,9 @@ from roughfilm.rom.bearing.effects.contributions import EffectStudy
 from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.words.effects import AT_FILM, SHOWN, UNDER_LOAD, Shown, cell, of_whole, shown_quantities
 
+Beside = Mapping[str, Mapping[str, Amount]]
+"""Changes by effects that a study does not include, by effect and quantity."""
+
 LAST_COLUMN = "contact_share"
 """The last column of the tables, which is not drawn."""
 
@@ -20,11 +23,12 @@ LAST_COLUMN = "contact_share"
 def write_page(analysis: EffectAnalysis, entries: Mapping[str, Any], out: Path) -> None:
     """Write the page and its figures; InputError if a file cannot be written."""
     at_film = f"{analysis.which_film}, {analysis.film * 1e6:.4g} µm"
-    first = _panels(analysis.at_film, ("load", "friction"), at_film, _beside(analysis))
-    views = [(at_film, analysis.at_film, AT_FILM, _beside(analysis), "effects_at_film")]
+    first = _panels(analysis.at_film, ("load", "friction"), at_film, analysis.not_counted)
+    views: list[tuple[str, EffectStudy, tuple[str, ...], Beside, str]]
+    views = [(at_film, analysis.at_film, AT_FILM, analysis.not_counted, "effects_at_film")]
     if analysis.under_load is not None and analysis.scene.load_pressure is not None:
         under = f"under {analysis.scene.load_pressure / 1e6:.4g} MPa over the nominal area"
-        beside = {} if analysis.thicker is None else {"film": analysis.thicker}
+        beside: Beside = {} if analysis.thicker is None else {"inertia": {"film": analysis.thicker}}
         first[1:1] = _panels(analysis.under_load, ("film",), under, beside)
         views.append((under, analysis.under_load, UNDER_LOAD, beside, "effects_under_load"))
     shown = [_view(*view, [panel.name for panel in first]) for view in views]
@@ -53,13 +57,13 @@ def write_page(analysis: EffectAnalysis, entries: Mapping[str, Any], out: Path) 
         ],
         inertia=analysis.inertia,
         thicker=None if analysis.thicker is None else f"{cell(analysis.thicker, SHOWN['film'], sign=True)} µm",
-        inertia_load=None if analysis.inertia is None else _of_load(first[0], analysis.inertia.amounts["load"]),
+        not_counted={effect: _of_load(first[0], added) for effect, added in first[0].beside.items()},
     )
 
 
-def _panels(study: EffectStudy, names: Sequence[str], where: str, beside: Mapping[str, Amount]) -> list[Panel]:
+def _panels(study: EffectStudy, names: Sequence[str], where: str, beside: Beside) -> list[Panel]:
     return [
-        Panel(study=study, name=name, how=how, where=where, beside=beside.get(name))
+        Panel(study=study, name=name, how=how, where=where, beside=_of(beside, name))
         for name, how in shown_quantities(study, names).items()
     ]
 
@@ -102,9 +106,10 @@ def _rows(panels: Sequence[Panel]) -> list[tuple[str, list[tuple[str, str]]]]:
             row(f"+ {name}", [panel.study.contributions[number].on.get(panel.name) for panel in panels], sign=True)
         )
     rows.append(row("all effects", [panel.study.full[panel.name] for panel in panels], sign=False))
-    if any(panel.beside is not None for panel in panels):
-        rows.append(row("inertia, not counted", [panel.beside for panel in panels], sign=True))
-    return rows
+    beside = dict.fromkeys(effect for panel in panels for effect in panel.beside)
+    return rows + [
+        row(f"{effect}, not counted", [panel.beside.get(effect) for panel in panels], sign=True) for effect in beside
+    ]
 
 
 def _of_load(panel: Panel, added: Amount) -> str:
@@ -112,21 +117,16 @@ def _of_load(panel: Panel, added: Amount) -> str:
     return f"{cell(added, panel.how, sign=True)} {panel.how.unit}{f' ({part} of the load)' if part else ''}"
 
 
-def _beside(analysis: EffectAnalysis) -> dict[str, Amount]:
-    """What inertia adds, by the names of the quantities that it is added to."""
-    if analysis.inertia is None:
-        return {}
-    full = analysis.at_film.full
-    return {
-        (name if name in full else f"{name}_per_width"): analysis.inertia.amounts[name] for name in ("load", "friction")
-    }
+def _of(beside: Beside, name: str) -> dict[str, Amount]:
+    """The changes of one quantity by effect."""
+    return {effect: amounts[name] for effect, amounts in beside.items() if name in amounts}
 
 
 def _view(
     where: str,
     study: EffectStudy,
     drawn: Sequence[str],
-    beside: Mapping[str, Amount],
+    beside: Beside,
     file: str,
     elsewhere: Sequence[str],
 ) -> dict[str, Any]:
@@ -142,8 +142,7 @@ def _view(
         row("all effects", study.full, sign=False),
     ]
     alone = [row(one.name, one.alone) for one in study.contributions]
-    if beside:
-        alone.append(row("inertia, not counted", beside))
+    alone += [row(f"{effect}, not counted", amounts) for effect, amounts in beside.items()]
     panels = [panel for panel in _panels(study, drawn, "", beside) if panel.name not in elsewhere]
     return {
         "title": f"{where[:1].upper()}{where[1:]}",

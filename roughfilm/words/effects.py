@@ -68,8 +68,13 @@ def cell(amount: Amount | None, how: Shown, *, sign: bool = False) -> str:
     return f"{'+' if signed else ''}{text}".replace("-", "−")
 
 
-def sentences(study: EffectStudy, name: str, inertia: Amount | None) -> list[str]:
-    """What each effect adds to one quantity, with its fraction of the whole, as sentences."""
+def sentences(study: EffectStudy, name: str, not_counted: Mapping[str, Mapping[str, Amount]]) -> list[str]:
+    """What each effect adds to one quantity, with its fraction of the whole, as sentences.
+
+    Parameters
+    ----------
+    not_counted : changes by effects that the study does not include, by effect and quantity.
+    """
     full = study.full[name]
     how, lines = _in_its_unit(name, full), []
     for one in study.contributions:
@@ -78,8 +83,8 @@ def sentences(study: EffectStudy, name: str, inertia: Amount | None) -> list[str
         parts += [f"to all the others {_adds(alone, how, full.value)}"] if alone else []
         if parts:
             lines.append(f"{one.name}: {', '.join(parts)}")
-    if inertia is not None:
-        lines.append(f"inertia, not counted above: {_adds(inertia, how, full.value)}")
+    for effect, amounts in not_counted.items():
+        lines.append(f"{effect}, not counted above: {_adds(amounts[name], how, full.value)}")
     return lines
 
 

@@ -1,13 +1,19 @@
 """The analysis of the effects of a bearing: at its film thickness, under its load, and by inertia."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.rom.bearing.effects.ablation import EFFECTS, Amount, Variant, at_film, effects_of
 from roughfilm.rom.bearing.effects.contributions import EffectStudy, study_effects
 from roughfilm.rom.bearing.effects.explanation import EffectModel, effect_models
-from roughfilm.rom.bearing.effects.inertia import InertiaAdded, inertia_added, inertia_obstacle, inertia_under_load
+from roughfilm.rom.bearing.effects.inertia import (
+    FULL,
+    InertiaAdded,
+    inertia_added,
+    inertia_obstacle,
+    inertia_under_load,
+)
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.equilibrium.expected import expected_film
 from roughfilm.rom.bearing.mixed.wall import asperities_of
@@ -24,7 +30,7 @@ class EffectAnalysis:
     film : film thickness of the scene; if it is not given, that under the load, m.
     treated : the model of each effect.
     at_film : contributions at this film thickness.
-    inertia : changes by inertia at that film thickness; None if they cannot be estimated.
+    inertia : changes by inertia, and by slope, at that film thickness; None if they cannot be estimated.
     under_load : contributions under the load of the scene; None without a load.
     loaded_inertia : changes by inertia under that load; None if they cannot be estimated.
     thicker : increase of the film thickness under that load by inertia, m.
@@ -45,6 +51,19 @@ class EffectAnalysis:
     def which_film(self) -> str:
         """The film of ``at_film`` in words: that of the scene or, if it gives none, that under the load."""
         return "at the film under the load" if self.scene.geometry.film is None else "at the film of the scene"
+
+    @property
+    def not_counted(self) -> dict[str, Mapping[str, Amount]]:
+        """The changes of load and friction by effects that ``at_film`` does not include, by effect and quantity."""
+        if self.inertia is None:
+            return {}
+        names = {f"{name}_per_width" if self.scene.wide else name: name for name in ("load", "friction")}
+        changes = {"inertia": self.inertia.amounts, "slope": self.inertia.slope}
+        return {
+            effect: {name: one[key] for name, key in names.items()}
+            for effect, one in changes.items()
+            if one is not None
+        }
 
     @property
     def left_out(self) -> list[str]:
@@ -88,12 +107,13 @@ def analyse_effects(scene: Bearing, cells: int, models: Sequence[Model], progres
         lambda done, words: progress(1 - fraction + fraction * done, words),
     )
     whole, has_inertia = Variant(scene=base), inertia_obstacle(scene) is None
+    inertia = inertia_added(whole, cells, models) if has_inertia else None
     analysis = EffectAnalysis(
         scene=scene,
         film=base.geometry.thinnest,
-        treated=effect_models(scene),
+        treated=effect_models(scene, full=inertia is not None and inertia.model == FULL),
         at_film=at,
-        inertia=inertia_added(whole, cells, models) if has_inertia else None,
+        inertia=inertia,
     )
     if pressure is None or loaded is None:
         return analysis

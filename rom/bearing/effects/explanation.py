@@ -4,14 +4,19 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from roughfilm.rom.bearing.effects.ablation import effects_of
-from roughfilm.rom.bearing.effects.inertia import inertia_obstacle
+from roughfilm.rom.bearing.effects.inertia import FIRST_ORDER, FULL, inertia_obstacle
+from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.wide_pad.changes import wide_pad
 
 Numbers = Mapping[str, float]
 
 SMALL_REDUCED_REYNOLDS_NUMBER = 0.3
 """Reduced Reynolds number Re·h/l below which inertia is small."""
+
+SLOPE = "to second order, film_slope minus film; not included in the load of the film"
+"""The reason for the model of slope."""
 
 SMALL_PERIOD_RATIO = 0.1
 """Period of the roughness over the length below which the error of averaging is a few per cent."""
@@ -26,8 +31,13 @@ class EffectModel:
     why: str
 
 
-def effect_models(scene: Bearing) -> tuple[EffectModel, ...]:
-    """The models of the effects that a scene has, and of inertia."""
+def effect_models(scene: Bearing, *, full: bool | None = None) -> tuple[EffectModel, ...]:
+    """The models of the effects that a scene has, of inertia, and of slope where it is resolved.
+
+    Parameters
+    ----------
+    full : whether inertia is computed in full; by default as at the expected film.
+    """
     numbers = bearing_numbers(scene)
     models = [
         EffectModel(effect=effect.name, model=model, why=why(numbers))
@@ -35,11 +45,19 @@ def effect_models(scene: Bearing) -> tuple[EffectModel, ...]:
         for model, why in [EFFECT_MODELS[effect.name]]
     ]
     obstacle = inertia_obstacle(scene)
-    if obstacle is None:
-        inertia = EffectModel(effect="inertia", model="first order, separate from the film", why=_inertia(numbers))
-    else:
-        inertia = EffectModel(effect="inertia", model="none", why=f"left out: {obstacle}")
-    return (*models, inertia)
+    if obstacle is not None:
+        return (*models, EffectModel(effect="inertia", model="none", why=f"left out: {obstacle}"))
+    if full is None:
+        pad = wide_pad(expected_scene(scene))
+        full = pad is not None and not pad.ruptures
+    if not full:
+        model = f"{FIRST_ORDER}, separate from the film"
+        return (*models, EffectModel(effect="inertia", model=model, why=_inertia(numbers)))
+    return (
+        *models,
+        EffectModel(effect="inertia", model=FULL, why=_full_inertia(numbers)),
+        EffectModel(effect="slope", model="film_slope", why=SLOPE),
+    )
 
 
 def _sides(numbers: Numbers) -> str:
@@ -91,11 +109,24 @@ def _asperities(numbers: Numbers) -> str:
     )
 
 
+def _reynolds_numbers(numbers: Numbers) -> str:
+    return (
+        f"Reynolds number Re = {numbers['reynolds_number']:.2g}, reduced one Re·h/l = "
+        f"{numbers['reduced_reynolds_number']:.2g}"
+    )
+
+
+def _full_inertia(numbers: Numbers) -> str:
+    return (
+        f"{_reynolds_numbers(numbers)}: in full, film minus the same film without density; "
+        "not included in the load of the film"
+    )
+
+
 def _inertia(numbers: Numbers) -> str:
     pocket = ", and fully in one pocket" if "pocket_depth_ratio" in numbers else ""
     return (
-        f"Reynolds number Re = {numbers['reynolds_number']:.2g}, reduced one Re·h/l = "
-        f"{numbers['reduced_reynolds_number']:.2g}: to first order over the whole film{pocket}; "
+        f"{_reynolds_numbers(numbers)}: to first order over the whole film{pocket}; "
         "not included in the load of the film"
     )
 

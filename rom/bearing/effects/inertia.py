@@ -1,7 +1,10 @@
-"""The changes of a bearing by inertia: to first order over the whole film, and fully in one pocket."""
+"""The changes of a bearing by inertia and slope: in full by models of infinitely wide pads, or inertia to first order.
+
+To first order over the whole film, the effect of higher orders is estimated in one pocket.
+"""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,18 +14,25 @@ from roughfilm.contact.foundation.units import with_unit
 from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.bearing.effects.ablation import Amount, Variant, VariantSolution, difference
 from roughfilm.rom.bearing.effects.under_load import under_load
-from roughfilm.rom.bearing.inertia import Inertia, inertia
+from roughfilm.rom.bearing.inertia import inertia
 from roughfilm.rom.bearing.numbers import bearing_numbers, without_texture
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.texture import Texture
+from roughfilm.rom.bearing.wide_pad.changes import WideFilm, wide_films
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty
 from roughfilm.rom.cavitation.solve import load_loops, solve
 from roughfilm.rom.ladder.model import Model, find, of_kind
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 
-FIRST_ORDER = "inertial_reynolds"
+FIRST_ORDER = "first order"
+"""The model of inertia where no model of the bearing includes it."""
+
+FULL = "film"
+"""The model of inertia of an infinitely wide pad."""
+
+POCKET_FIRST_ORDER = "inertial_reynolds"
 """The model of pockets with the same first-order inertia, to which the cheapest sufficient model is compared."""
 
 POCKET_QUANTITY = "load_plus"
@@ -65,16 +75,20 @@ class PocketInertia:
 
 @dataclass(frozen=True, kw_only=True)
 class InertiaAdded:
-    """The changes of a converged film by inertia, to first order; quantities of the film do not include them.
+    """The changes of a converged film by inertia, and by slope; quantities of the film do not include them.
 
     Attributes
     ----------
+    model : ``FULL``, the difference of ``film`` and the same film without density, or ``FIRST_ORDER``.
     amounts : changes of ``load``, ``friction`` and ``inlet_flow`` of the bearing (per width if infinitely wide).
-    untextured_load : change of the load without the pockets; None where ``pocket`` is None.
-    pocket : effect of inertia in one pocket; None without pockets, or if no model can solve one.
+    slope : changes of the same quantities by slope to second order, ``film_slope`` minus ``film``; None at first order.
+    untextured_load : change of the load by inertia without the pockets; None where there are none, or if it is unknown.
+    pocket : effect of inertia in one pocket; None in full, without pockets, or if no model can solve one.
     """
 
+    model: str
     amounts: Mapping[str, Amount]
+    slope: Mapping[str, Amount] | None
     untextured_load: float | None
     pocket: PocketInertia | None
 
@@ -91,7 +105,10 @@ def inertia_obstacle(scene: Bearing) -> str | None:
 
 
 def inertia_added(variant: Variant, cells: int, models: Sequence[Model]) -> InertiaAdded:
-    """Compute the first-order changes by inertia, with their uncertainty from coarser grids and from one pocket.
+    """Compute the changes by inertia, and by slope where it is resolved, with their uncertainty from coarser grids.
+
+    In an infinitely wide pad to which ``film`` applies, and whose film does not rupture, they are differences of models
+    on one grid. Elsewhere inertia is of first order, and its uncertainty includes that of one pocket.
 
     Parameters
     ----------
@@ -106,6 +123,16 @@ def inertia_added(variant: Variant, cells: int, models: Sequence[Model]) -> Iner
         If a film does not converge.
     """
     scene = variant.scene
+    films, smooth = wide_films(scene), without_texture(scene)
+    if films:
+        plain = () if smooth is scene else wide_films(smooth)
+        return InertiaAdded(
+            model=FULL,
+            amounts=_differences(films, WideFilm.by_inertia),
+            slope=_differences(films, WideFilm.by_slope),
+            untextured_load=plain[0].by_inertia("load_per_width") if plain else None,
+            pocket=None,
+        )
     load_loops(scene.wide)
     grids = grid_sequence(solve(variant.problem(), (cells, cells), ruptures=variant.ruptures))
     changes = {cells_of(grid): inertia(scene, grid) for grid in grids}
@@ -114,19 +141,33 @@ def inertia_added(variant: Variant, cells: int, models: Sequence[Model]) -> Iner
     higher_orders = min(1.0, number) if pocket is None else abs(pocket.over_first_order - 1) + pocket.within
     untextured_load = None
     if pocket is not None:
-        smooth = without_texture(scene)
         problem = replace(variant, scene=smooth).problem()
         untextured_load = inertia(smooth, solve(problem, (cells, cells), ruptures=variant.ruptures)).load
     return InertiaAdded(
-        amounts={name: _amount(name, changes, higher_orders, wide=scene.wide) for name in UNITS},
+        model=FIRST_ORDER,
+        amounts={
+            name: _amount(
+                name, {cells: getattr(one, name) for cells, one in changes.items()}, scene.wide, higher_orders
+            )
+            for name in UNITS
+        },
+        slope=None,
         untextured_load=untextured_load,
         pocket=pocket,
     )
 
 
-def _amount(name: str, changes: Mapping[float, Inertia], higher_orders: float, *, wide: bool) -> Amount:
+def _differences(films: Sequence[WideFilm], change: Callable[[WideFilm, str], float]) -> dict[str, Amount]:
+    """The changes of an infinitely wide pad between two models."""
+    return {
+        name: _amount(name, {film.cells: change(film, f"{name}_per_width") for film in films}, wide=True)
+        for name in UNITS
+    }
+
+
+def _amount(name: str, changes: Mapping[float, float], wide: bool, higher_orders: float = 0.0) -> Amount:
     """The change on the finest grid, which is the first, with the uncertainty of grids and of higher orders."""
-    values = [getattr(change, name) for change in changes.values()]
+    values = [*changes.values()]
     error = grid_uncertainty([*changes], values) if len(values) > 1 else math.inf
     return Amount(value=values[0], uncertainty=error + higher_orders * abs(values[0]), unit=UNITS[name][wide])
 
@@ -174,7 +215,7 @@ def _solved_pocket(scene: Bearing, texture: Texture, density: float, models: Seq
     verdict = advice.chosen or advice.nearest
     if verdict is None or verdict.error is None or verdict.error > 1 or not verdict.sure:
         return None
-    first = find(models, "pocket", FIRST_ORDER).solve(pocket).quantities["load_per_area"].value
+    first = find(models, "pocket", POCKET_FIRST_ORDER).solve(pocket).quantities["load_per_area"].value
     request = Request(resolution=verdict.resolution)
     result = advice.result or find(models, "pocket", verdict.model).solve(pocket, request)
     ratio = result.quantities["load_per_area"].value / first
@@ -186,19 +227,29 @@ def inertia_under_load(
 ) -> tuple[InertiaAdded, Amount]:
     """The changes by inertia at the film under a load, and the increase of the film thickness by inertia, m.
 
+    In full, inertia is that of the thicker film, from one repetition, whose step is part of the uncertainty.
+
     Parameters
     ----------
     whole : the variant under the load.
     pressure : the load over the nominal area, Pa.
     """
     scene = variant.scene
-    loaded = scene.at_film(whole.values["film"])
-    changes = inertia_added(replace(variant, scene=loaded), cells, models)
-    load = changes.amounts["load"]
-    fraction = load.value / whole.values["load_per_width" if scene.wide else "load"]
-    relieved = under_load(variant, pressure * (1 - fraction), cells)
-    thicker = difference(relieved, whole, "film")
-    assert thicker is not None
-    relative = load.uncertainty / abs(load.value) if load.value else 0.0
-    uncertainty = abs(thicker.value) * relative + thicker.uncertainty
-    return changes, Amount(value=thicker.value, uncertainty=uncertainty, unit="m")
+
+    def at(film: float) -> tuple[InertiaAdded, Amount]:
+        """The changes at a film thickness, and the increase of the film if they are those of the load."""
+        changes = inertia_added(replace(variant, scene=scene.at_film(film)), cells, models)
+        load = changes.amounts["load"]
+        fraction = load.value / whole.values["load_per_width" if scene.wide else "load"]
+        thicker = difference(under_load(variant, pressure * (1 - fraction), cells), whole, "film")
+        assert thicker is not None
+        relative = load.uncertainty / abs(load.value) if load.value else 0.0
+        return changes, replace(thicker, uncertainty=abs(thicker.value) * relative + thicker.uncertainty)
+
+    film = whole.values["film"]
+    changes, thicker = at(film)
+    if changes.model != FULL:
+        return changes, thicker
+    again = at(film + thicker.value)[1]
+    step = abs(again.value - thicker.value)
+    return changes, replace(again, uncertainty=again.uncertainty + step)

@@ -147,8 +147,7 @@ def _shown(analysis: EffectAnalysis) -> Iterator[Table | str]:
         table.rows[-1].style = "bold"
         yield table
     load = next(iter(shown_quantities(analysis.at_film, ("load",))))
-    inertia = analysis.inertia.amounts["load"] if analysis.inertia else None
-    yield from (f"load, {sentence}" for sentence in sentences(analysis.at_film, load, inertia))
+    yield from (f"load, {sentence}" for sentence in sentences(analysis.at_film, load, analysis.not_counted))
     yield from (f"{treated.effect} by {treated.model}: {treated.why}" for treated in analysis.treated)
     if analysis.left_out:
         yield f"left out, because the scene does not have them: {', '.join(analysis.left_out)}"

@@ -12,7 +12,14 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.effects.ablation import Variant, VariantSolution, at_film
-from roughfilm.rom.bearing.effects.inertia import inertia_added, inertia_obstacle, inertia_under_load, pocket_inertia
+from roughfilm.rom.bearing.effects.inertia import (
+    FIRST_ORDER,
+    FULL,
+    inertia_added,
+    inertia_obstacle,
+    inertia_under_load,
+    pocket_inertia,
+)
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.inertia import Inertia, inertia
 from roughfilm.rom.bearing.scene import Bearing
@@ -237,9 +244,13 @@ def test_inertia_changes_no_pressure_in_cavities() -> None:
 
 
 def test_the_uncertainty_covers_models_with_full_inertia() -> None:
-    scene = bearing(speed_of(60))
+    """``film`` does not apply to a viscosity that depends on pressure, here by less than one part in 10⁹."""
+    law = {"law": "barus", "pressure_coefficient": "1e-6 GPa^-1"}
+    scene = bearing(speed_of(60), lubricant={"piezoviscosity": law})
     change = inertia_added(Variant(scene=scene, ruptures=False), 512, POCKET_MODELS)
     truth = find("pocket", "film_slope").solve(pocket(speed_of(60))).quantities["load_per_area"].value * LENGTH
+    assert change.model == FIRST_ORDER
+    assert change.slope is None
     assert change.pocket is not None
     assert change.pocket.model in ("inertial_reynolds", "film", "film_slope")
     assert change.untextured_load == pytest.approx(0.0, abs=1e-9 * change.amounts["load"].value)
@@ -256,7 +267,48 @@ def test_inertia_thickens_a_wedge_film_until_its_load_is_the_same() -> None:
     geometry = taken.scene.geometry.at_film(film + gained)
     lifted = Variant(scene=taken.scene.model_copy(update={"geometry": geometry}))
     missing = 5e5 * 10e-3 - at_film(lifted, 512).values["load_per_width"]
-    assert missing == pytest.approx(changes.amounts["load"].value, rel=1e-2)
+    there = inertia_added(lifted, 512, POCKET_MODELS)
+    assert there.model == changes.model == FULL
+    assert missing == pytest.approx(there.amounts["load"].value, rel=1e-2)
+
+
+@pytest.mark.parametrize("direction", [1, -1])
+def test_a_wide_pad_has_all_of_inertia_and_slope_to_second_order(direction: int) -> None:
+    """Inertia changes the load of the Reynolds equation, 0, to that of ``film``; in OpenFOAM it is 7 % below first order."""
+    scene = bearing(direction * speed_of(160))
+    change = inertia_added(Variant(scene=scene), 512, POCKET_MODELS)
+    load, friction, slope = change.amounts["load"], change.amounts["friction"], change.slope
+    assert change.model == FULL
+    assert change.pocket is None
+    assert slope is not None
+    film, sloped, creeping = (
+        find("bearing", name).solve(scene, Request(resolution=1600)) for name in ("film", "film_slope", "reynolds")
+    )
+
+    def between(more: Any, less: Any, quantity: str) -> float:
+        return float(more[quantity].value - less[quantity].value)
+
+    assert abs(load.value - between(film, creeping, "load_per_width")) <= load.uncertainty < 1e-3 * load.value
+    assert friction.value == pytest.approx(between(film, creeping, "friction_per_width"), abs=2 * friction.uncertainty)
+    assert slope["load"].value == pytest.approx(between(sloped, film, "load_per_width"), abs=slope["load"].uncertainty)
+    first = judged_film(scene, 512)[1].load
+    assert (load.value + slope["load"].value) / first == pytest.approx(0.93, abs=0.005)
+
+
+@pytest.mark.parametrize(
+    "tables",
+    [{"geometry": {"width": "1 mm"}}, {"lubricant": {"cavitation_pressure": "-1 kPa"}}],
+    ids=["narrow", "torn"],
+)
+def test_other_pads_have_inertia_to_first_order(tables: dict[str, Any]) -> None:
+    scene = bearing(speed_of(160), **tables)
+    change = inertia_added(Variant(scene=scene), 64, POCKET_MODELS)
+    assert change.model == FIRST_ORDER
+    assert change.slope is None
+    assert change.pocket is not None
+    added = inertia(scene, solve(scene.problem(), (64, 64)))
+    assert change.amounts["load"].value == pytest.approx(added.load, rel=1e-9)
+    assert change.amounts["load"].uncertainty >= abs(change.pocket.over_first_order - 1) * abs(added.load)
 
 
 def test_where_inertia_cannot_be_estimated_the_reason_is_given() -> None:

@@ -3,9 +3,10 @@
 import math
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, cast
 
 import pytest
+from places import SCENES
 
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
@@ -28,7 +29,7 @@ from roughfilm.rom.bearing.mixed.equilibrium import equilibrium
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import ladder, of_kind
 from roughfilm.rom.ladder.request import Request
-from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.rom.ladder.scene import load_scene, read_scene
 
 CELLS = 32
 SURFACE = {
@@ -294,6 +295,10 @@ def test_each_effect_has_its_model_and_its_numbers() -> None:
     assert "λ = h/Sq = 2.3" in models["asperities"].why
     assert f"Re·h/l = {850 * 4 * 2.8e-6 / 0.01 * 2.8e-6 / 4e-3:.2g}" in models["texture"].why
     assert [one.why for one in effect_models(smooth())][-1].startswith("left out: the scene has no lubricant.density")
+    *_, inertia, slope = effect_models(cast(Bearing, load_scene(SCENES / "wide_pad.toml")))
+    assert (inertia.effect, inertia.model) == ("inertia", "film")
+    assert "in full, film minus the same film without density" in inertia.why
+    assert (slope.effect, slope.model) == ("slope", "film_slope")
 
 
 def test_variants_of_one_scene_differ() -> None:

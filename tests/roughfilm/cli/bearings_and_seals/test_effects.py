@@ -119,6 +119,20 @@ def test_what_a_scene_lacks_is_left_out_and_said(tmp_path: Path) -> None:
     assert "the scene has no lubricant.density" in said
 
 
+def test_a_wide_pad_has_rows_of_inertia_in_full_and_of_slope(tmp_path: Path) -> None:
+    done = run("wide_pad.toml", "--resolution", 128, "--out", tmp_path)
+    assert done.exit_code == 0, done.stderr
+    assert "load, slope, not counted above: −" in done.stdout
+    assert "inertia by film: Reynolds number" in done.stdout
+    inertia = json.loads((tmp_path / "effects.json").read_text(encoding="utf-8"))["inertia"]
+    assert inertia["model"] == "film"
+    assert inertia["slope"]["load"]["value"] < 0
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    rows = re.findall(r"<tr[^>]*><td>(.*?)</td>", page[: page.index("Model of each effect")])
+    assert rows[-3:] == ["all effects", "inertia, not counted", "slope, not counted"]
+    assert "Inertia and slope, computed separately" in page
+
+
 def test_a_load_of_the_command_takes_the_place_of_the_scenes(tmp_path: Path) -> None:
     done = run("rough_pad.toml", "--resolution", 32, "--load", "0.2MPa", "--out", tmp_path, "--json")
     assert done.exit_code == 0, done.stderr
