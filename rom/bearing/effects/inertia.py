@@ -47,6 +47,9 @@ POCKET_TOLERANCE = 0.05
 POCKET_PERIOD_RATIO = 2.0
 """Period over the length of a pocket in the scene of one pocket."""
 
+MAX_REPETITIONS = 5
+"""Largest number of repetitions with the inertia of the thicker film."""
+
 UNITS: Mapping[str, tuple[str, str]] = {
     "load": ("N", "N/m"),
     "friction": ("N", "N/m"),
@@ -227,7 +230,7 @@ def inertia_under_load(
 ) -> tuple[InertiaAdded, Amount]:
     """The changes by inertia at the film under a load, and the increase of the film thickness by inertia, m.
 
-    In full, inertia is that of the thicker film, from one repetition, whose step is part of the uncertainty.
+    In full, inertia is that of the thicker film, found by repetition, whose last step is part of the uncertainty.
 
     Parameters
     ----------
@@ -250,6 +253,10 @@ def inertia_under_load(
     changes, thicker = at(film)
     if changes.model != FULL:
         return changes, thicker
-    again = at(film + thicker.value)[1]
-    step = abs(again.value - thicker.value)
-    return changes, replace(again, uncertainty=again.uncertainty + step)
+    step = math.inf
+    for _ in range(MAX_REPETITIONS):
+        before, thicker = thicker, at(film + thicker.value)[1]
+        step = abs(thicker.value - before.value)
+        if step <= thicker.uncertainty:
+            break
+    return changes, replace(thicker, uncertainty=thicker.uncertainty + step)

@@ -274,7 +274,7 @@ def test_inertia_thickens_a_wedge_film_until_its_load_is_the_same() -> None:
 
 @pytest.mark.parametrize("direction", [1, -1])
 def test_a_wide_pad_has_all_of_inertia_and_slope_to_second_order(direction: int) -> None:
-    """Inertia changes the load of the Reynolds equation, 0, to that of ``film``; in OpenFOAM it is 7 % below first order."""
+    """The load of the Reynolds equation is 0. In OpenFOAM that of one period is 7 % below the first order."""
     scene = bearing(direction * speed_of(160))
     change = inertia_added(Variant(scene=scene), 512, POCKET_MODELS)
     load, friction, slope = change.amounts["load"], change.amounts["friction"], change.slope
