@@ -1,12 +1,12 @@
 """The effects that models of a bearing leave out and the error laws do not count: inertia, or cavitation and slope."""
 
 from roughfilm.rom.bearing.effects.inertia import inertia_obstacle
+from roughfilm.rom.bearing.effects.wide_pad import wide_pad
 from roughfilm.rom.bearing.equilibrium.expected import expected_film, expected_scene
 from roughfilm.rom.bearing.inertia import inertia
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.wide_pad.changes import wide_pad
 from roughfilm.rom.cavitation.solve import load_loops, solve
 from roughfilm.rom.ladder.kind import Omission, kind_of_scene
 from roughfilm.rom.ladder.model import Effect, Model

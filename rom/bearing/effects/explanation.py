@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 from roughfilm.rom.bearing.effects.ablation import effects_of
 from roughfilm.rom.bearing.effects.inertia import FIRST_ORDER, FULL, inertia_obstacle
+from roughfilm.rom.bearing.effects.wide_pad import wide_pad
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.wide_pad.changes import wide_pad
 
 Numbers = Mapping[str, float]
 
