@@ -172,7 +172,7 @@ class _Cap(_Round):
 
     @property
     def largest_edge(self) -> float:
-        """Width of the rounding above which it would make the cap deeper, (a² - d²)/a, a half of the smaller extent, m."""
+        """Width of the rounding above which it would make the cap deeper, (a² - d²)/a with a half of the extent, m."""
         half = min(self.extents) / 2
         return max(0.0, half - self.depth**2 / half)
 

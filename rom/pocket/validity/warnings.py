@@ -12,7 +12,7 @@ Of 1200 random pockets 2 % exceed it without another warning; a third of these m
 """
 
 STEEP = 1.0
-"""Mean slope of a dimple above which films without slope were not compared with others in plan."""
+"""Mean slope of a dimple above which thin films were not compared with Navier-Stokes flow in plan."""
 
 INERTIAL = 1.0
 """Re · 2d/w of a cell in plan above which a film without inertia is out of its range.
@@ -59,18 +59,23 @@ def cancellations(scene: Pocket, *, load: float, lowest: float, highest: float) 
     )
 
 
+def steep_warnings(scene: Pocket) -> tuple[str, ...]:
+    """The warning where a dimple of a cell in plan is too steep for a thin film."""
+    if not scene.slope > STEEP:
+        return ()
+    return (
+        f"the mean slope of the steepest dimple is {scene.slope:.3g}, above {STEEP:g}: the film over it is not thin; "
+        "take navier_stokes",
+    )
+
+
 def range_warnings(scene: Pocket, *, change: float | None) -> tuple[str, ...]:
     """The warnings where a cell in plan leaves the range of a Reynolds equation.
 
     ``change`` is the greatest change of pressure by first-order inertia over the range of pressure without it; None
     for a model without inertia.
     """
-    warnings = []
-    if scene.slope > STEEP:
-        warnings.append(
-            f"the mean slope of the steepest dimple is {scene.slope:.3g}, above {STEEP:g}: the film over it is not "
-            "thin; take navier_stokes"
-        )
+    warnings = [*steep_warnings(scene)]
     inertial = scene.reynolds_number * scene.aspect
     if change is None and inertial > INERTIAL:
         warnings.append(
