@@ -14,7 +14,7 @@ from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import NO_COARSER_GRID, Numerics, Result, SolverRun, with_uncertainties
 from roughfilm.rom.pocket.cavitating.cells import cell_fields, cell_film, cell_quantities
 from roughfilm.rom.pocket.cavitating.grooves import groove_fields, groove_problem, groove_quantities
-from roughfilm.rom.pocket.plan.grid import columns_across
+from roughfilm.rom.pocket.plan.grid import columns_across, require_resolved
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.warnings import cautions, range_warnings
 
@@ -29,6 +29,8 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
 
     Raises
     ------
+    InputError
+        If a dimple of a cell in plan is narrower than a column.
     ConvergenceError
         If the residual does not meet the tolerance.
     """
@@ -37,6 +39,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     wall, cpu = time.perf_counter(), working_time()
     cells = request.resolution
     if scene.in_plan:
+        require_resolved(scene, cells)
         sides = (cells, columns_across(scene.plan(), cells))
         solution = cell_film(scene, sides, tolerance=request.tolerance, progress=progress)
         quantities, fields = cell_quantities, cell_fields

@@ -1,5 +1,6 @@
 """Warnings where a pocket leaves the range of validity of a model."""
 
+from roughfilm.rom.cavitation.shape import CELLS_PER_FEATURE
 from roughfilm.rom.parts.laminar import turbulence_warnings
 from roughfilm.rom.parts.surroundings import rupture_warnings
 from roughfilm.rom.pocket.scene import Pocket
@@ -66,6 +67,17 @@ def steep_warnings(scene: Pocket) -> tuple[str, ...]:
     return (
         f"the mean slope of the steepest dimple is {scene.slope:.3g}, above {STEEP:g}: the film over it is not thin; "
         "take navier_stokes",
+    )
+
+
+def column_warnings(scene: Pocket, columns: int) -> tuple[str, ...]:
+    """The warning where the narrowest dimple of a cell in plan has too few of so many columns along the cell."""
+    own = columns * scene.geometry.narrowest / scene.geometry.length
+    if own >= CELLS_PER_FEATURE:
+        return ()
+    return (
+        f"the narrowest dimple has {own:.2g} columns, and the uncertainties may be too small; take at least "
+        f"{CELLS_PER_FEATURE / own:.2g} times the resolution",
     )
 
 

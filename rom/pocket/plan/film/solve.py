@@ -17,6 +17,7 @@ from roughfilm.rom.pocket.model import SCHEMES
 from roughfilm.rom.pocket.plan.film import newton, slope
 from roughfilm.rom.pocket.plan.film.equations import Film, SheetFlow
 from roughfilm.rom.pocket.plan.film.sheet import Sheet, sheet
+from roughfilm.rom.pocket.plan.grid import require_resolved
 from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.promise import promise_warnings
@@ -160,12 +161,13 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     Raises
     ------
     InputError
-        If the cell is so broad that the resolution needs too many columns.
+        If the cell is so broad that the resolution needs too many columns, or a dimple is narrower than a column.
     ConvergenceError
         If Newton's method does not converge to the tolerance.
     """
     wall, cpu = time.perf_counter(), working_time()
     second_order, with_slope = request.scheme == SCHEMES[0], Effect.SLOPE in solver.keeps
+    require_resolved(scene, request.resolution)
     film = solve_sheet(
         sheet(scene.plan(), request.resolution, second_order=second_order),
         scene.reynolds_number,
