@@ -13,7 +13,7 @@ from roughfilm.rom.pocket.plan.level import levels_of, quantities_of
 from roughfilm.rom.pocket.plan.quantities import plan_fields
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.promise import promise_warnings
-from roughfilm.rom.pocket.validity.warnings import cautions, column_warnings, range_warnings, ruptures
+from roughfilm.rom.pocket.validity.warnings import cautions, column_warnings, inertia_warnings, ruptures, steep_warnings
 
 
 def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:
@@ -64,7 +64,8 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             *cautions(scene),
             *promise_warnings(scene, solver.name),
             *column_warnings(scene, request.resolution),
-            *range_warnings(scene, change=finest.change_of_pressure(number)),
+            *steep_warnings(scene),
+            *inertia_warnings(scene, change=finest.change_of_pressure(number)),
             *ruptures(scene, finest.pressure_range(number)[0] - on_wall.edge_mean),
             *([] if len(levels) > 1 else [NO_COARSER_GRID]),
         ),

@@ -81,22 +81,21 @@ def column_warnings(scene: Pocket, columns: int) -> tuple[str, ...]:
     )
 
 
-def range_warnings(scene: Pocket, *, change: float | None) -> tuple[str, ...]:
-    """The warnings where a cell in plan leaves the range of a Reynolds equation.
+def inertia_warnings(scene: Pocket, *, change: float | None = None) -> tuple[str, ...]:
+    """The warning where a model without inertia, or with inertia to first order, leaves its range over a cell in plan.
 
     ``change`` is the greatest change of pressure by first-order inertia over the range of pressure without it; None
     for a model without inertia.
     """
-    warnings = [*steep_warnings(scene)]
     inertial = scene.reynolds_number * scene.aspect
     if change is None and inertial > INERTIAL:
-        warnings.append(
+        return (
             f"Re · 2d/w = {inertial:.3g} is above {INERTIAL:g}: inertia, which is left out, may change the load by a "
-            "quarter of the largest pressure; take film or film_slope"
+            "quarter of the largest pressure; take film or film_slope",
         )
     if change is not None and change > SECOND_ORDER:
-        warnings.append(
+        return (
             f"to first order in Re, inertia changes the pressure by {change:.3g} times its range without inertia: "
-            "higher orders are left out and may be as large; take film or film_slope"
+            "higher orders are left out and may be as large; take film or film_slope",
         )
-    return tuple(warnings)
+    return ()
