@@ -11,9 +11,9 @@ from roughfilm.rom.bearing.models.film import MODEL as FILM
 from roughfilm.rom.bearing.models.film_slope import MODEL as FILM_SLOPE
 from roughfilm.rom.bearing.models.reynolds import MODEL as REYNOLDS
 from roughfilm.rom.bearing.models.reynolds_incompressible import MODEL as REYNOLDS_INCOMPRESSIBLE
-from roughfilm.rom.bearing.numbers import bearing_numbers
+from roughfilm.rom.bearing.numbers import bearing_numbers, without_inertia
 from roughfilm.rom.bearing.quantities import bearing_quantities
-from roughfilm.rom.bearing.scene import Bearing, Inlet
+from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.solve import load_loops, solve
 from roughfilm.rom.ladder.kind import Omission, kind_of, kind_of_scene
 from roughfilm.rom.ladder.model import Effect, Model
@@ -29,9 +29,6 @@ MIN_STEEPNESS = 0.5
 """Smallest exponent of the load over the film thickness by which a change of the load is divided."""
 
 INERTIA_FIELDS = {"load_per_width": "load", "friction_per_width": "friction"}
-
-NEGLIGIBLE_DENSITY = 1e-9
-"""Density of a liquid without inertia, kg/m³."""
 
 SMALLEST_PART = 1e-6
 """Relative change below which an effect is not mentioned."""
@@ -103,22 +100,13 @@ def _solved(question: _Question) -> WidePad | None:
     try:
         return WidePad(
             film=solved(FILM),
-            creeping=solved(FILM, _creeping(scene)),
+            creeping=solved(FILM, without_inertia(scene)),
             slope=solved(FILM_SLOPE),
             reynolds=solved(REYNOLDS),
             cavitating=solved(REYNOLDS_INCOMPRESSIBLE),
         )
     except ConvergenceError:
         return None
-
-
-def _creeping(scene: Bearing) -> Bearing:
-    """The same pad with a negligible density, and with the same pressure at its inlet."""
-    lubricant, boundary = scene.lubricant.model_copy(update={"density": NEGLIGIBLE_DENSITY}), scene.boundary
-    if boundary.inlet.theta is None:
-        inlet = Inlet.model_construct(pressure=scene.inlet_pressure)
-        boundary = boundary.model_copy(update={"inlet": inlet})
-    return scene.model_copy(update={"lubricant": lubricant, "boundary": boundary})
 
 
 def missing(scene: Bearing, model: Model[Bearing]) -> float:

@@ -12,10 +12,11 @@ from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.bearing.effects.ablation import Amount, Variant, VariantSolution, difference
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.inertia import Inertia, inertia
-from roughfilm.rom.bearing.numbers import bearing_numbers, without_texture
+from roughfilm.rom.bearing.numbers import bearing_numbers, without_inertia, without_texture
 from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.texture import Texture
+from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty
 from roughfilm.rom.cavitation.solve import load_loops, solve
 from roughfilm.rom.ladder.model import Model, find, of_kind
@@ -24,6 +25,9 @@ from roughfilm.rom.ladder.scene import read_scene
 
 FIRST_ORDER = "inertial_reynolds"
 """The model of pockets with the same first-order inertia, to which the cheapest sufficient model is compared."""
+
+RESOLVED = "film"
+"""The model of wide pads with all of inertia, to which the first order is compared."""
 
 POCKET_QUANTITY = "load_plus"
 """Quantity of one pocket by which its model is chosen."""
@@ -117,8 +121,10 @@ def inertia_added(variant: Variant, cells: int, models: Sequence[Model]) -> Iner
         smooth = without_texture(scene)
         problem = replace(variant, scene=smooth).problem()
         untextured_load = inertia(smooth, solve(problem, (cells, cells), ruptures=variant.ruptures)).load
+    amounts = {name: _amount(name, changes, higher_orders, wide=scene.wide) for name in UNITS}
+    whole = not (grids[0].kind == CAVITY).any()
     return InertiaAdded(
-        amounts={name: _amount(name, changes, higher_orders, wide=scene.wide) for name in UNITS},
+        amounts=_with_full_inertia(scene, amounts, models) if whole else amounts,
         untextured_load=untextured_load,
         pocket=pocket,
     )
@@ -129,6 +135,27 @@ def _amount(name: str, changes: Mapping[float, Inertia], higher_orders: float, *
     values = [getattr(change, name) for change in changes.values()]
     error = grid_uncertainty([*changes], values) if len(values) > 1 else math.inf
     return Amount(value=values[0], uncertainty=error + higher_orders * abs(values[0]), unit=UNITS[name][wide])
+
+
+def _with_full_inertia(scene: Bearing, amounts: Mapping[str, Amount], models: Sequence[Model]) -> dict[str, Amount]:
+    """The changes to first order, whose uncertainty contains that by the model ``film`` of wide pads if it applies.
+
+    The film must not rupture.
+    """
+    film = next((model for model in of_kind(models, "bearing") if model.name == RESOLVED), None)
+    if film is None or not film.applies(scene).applies:
+        return dict(amounts)
+    try:
+        one, other = film.solve(scene), film.solve(without_inertia(scene))
+    except ConvergenceError:
+        return dict(amounts)
+    found = {}
+    for name, amount in amounts.items():
+        quantity = f"{name}_per_width"
+        change = one[quantity].value - other[quantity].value
+        uncertainty = abs(change - amount.value) + (one[quantity].uncertainty or 0.0)
+        found[name] = replace(amount, uncertainty=max(amount.uncertainty, uncertainty))
+    return found
 
 
 def pocket_inertia(scene: Bearing, models: Sequence[Model]) -> PocketInertia | None:

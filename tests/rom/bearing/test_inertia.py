@@ -15,6 +15,7 @@ from roughfilm.rom.bearing.effects.ablation import Variant, VariantSolution, at_
 from roughfilm.rom.bearing.effects.inertia import inertia_added, inertia_obstacle, inertia_under_load, pocket_inertia
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.inertia import Inertia, inertia
+from roughfilm.rom.bearing.numbers import without_inertia
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
@@ -244,6 +245,15 @@ def test_the_uncertainty_covers_models_with_full_inertia() -> None:
     assert change.pocket.model in ("inertial_reynolds", "film", "film_slope")
     assert change.untextured_load == pytest.approx(0.0, abs=1e-9 * change.amounts["load"].value)
     assert abs(change.amounts["load"].value - truth) <= change.amounts["load"].uncertainty < 0.1 * truth
+
+
+def test_the_uncertainty_contains_the_change_by_all_of_inertia_in_a_pad_with_several_pockets() -> None:
+    scene = load_scene(SCENES / "wide_pad.toml")
+    load = inertia_added(Variant(scene=scene), 512, ladder(rom, foamcases)).amounts["load"]
+    whole = find("bearing", "film_slope").solve(scene)["load_per_width"].value
+    creeping = find("bearing", "film_slope").solve(without_inertia(scene))["load_per_width"].value
+    assert load.value > 0 > whole - creeping
+    assert abs(load.value - (whole - creeping)) < 1.1 * load.uncertainty
 
 
 def test_inertia_thickens_a_wedge_film_until_its_load_is_the_same() -> None:
