@@ -8,13 +8,16 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.ring import Ring, Washer
-from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.scene import Bearing, Inlet
 from roughfilm.rom.bearing.shapes import AnyShape
 from roughfilm.rom.bearing.texture import Texture
 from roughfilm.rom.cavitation.shape import Shape
 
 SAMPLES = 129
 """Number of positions along and across at which the film thickness is sampled."""
+
+NEGLIGIBLE_DENSITY = 1e-9
+"""Density of a liquid without inertia, kg/m³."""
 
 
 def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
@@ -97,6 +100,15 @@ def without_texture(scene: Bearing) -> Bearing:
     if getattr(scene.geometry, key, None) is None:
         return scene
     return scene.model_copy(update={"geometry": scene.geometry.model_copy(update={key: None})})
+
+
+def without_inertia(scene: Bearing) -> Bearing:
+    """The same bearing with a negligible density, and with the same pressure at its inlet."""
+    lubricant, boundary = scene.lubricant.model_copy(update={"density": NEGLIGIBLE_DENSITY}), scene.boundary
+    if boundary.inlet.theta is None:
+        inlet = Inlet.model_construct(pressure=scene.inlet_pressure)
+        boundary = boundary.model_copy(update={"inlet": inlet})
+    return scene.model_copy(update={"lubricant": lubricant, "boundary": boundary})
 
 
 def _finest(scene: Bearing) -> float:

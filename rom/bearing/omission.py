@@ -114,7 +114,7 @@ def inertia_omitted(scene: Bearing, quantity: str) -> Omission | None:
     resolved = pad is not None and not pad.ruptures
     fraction = pad.by_inertia(quantity) if pad is not None and resolved else _first_order(scene, quantity)
     change = _by(fraction) if resolved or fraction < 1 else "by more than the first-order estimate can predict"
-    kept = "which of these models film includes" if pad is not None else "which no model of this bearing includes"
+    kept = "which film and film_slope include" if pad is not None else "which no model of this bearing includes"
     return Omission(
         part=fraction,
         reason=f"reduced Reynolds number Re·h/L = {number:.2g}: inertia, {kept}, changes the "

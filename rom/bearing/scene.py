@@ -209,8 +209,9 @@ class Bearing(Scene):
         sides = {"sides.low": self.boundary.sides.low, "sides.high": self.boundary.sides.high}
         for place, given in (places | (sides if self.wide is False else {})).items():
             if given is not None and given < lowest:
+                ram = " with the ram pressure" if place == "inlet" and self.boundary.inlet.ram_factor else ""
                 raise ValueError(
-                    f"boundary.{place}.pressure: got {given!r} Pa; it must be at least the cavitation pressure, "
+                    f"boundary.{place}.pressure: got {given!r} Pa{ram}; it must be at least the cavitation pressure, "
                     f"{lowest!r} Pa"
                 )
         theta = self.boundary.inlet.theta

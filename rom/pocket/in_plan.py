@@ -8,12 +8,12 @@ from roughfilm.rom.ladder.model import Effect, Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import NO_COARSER_GRID, Numerics, Result
-from roughfilm.rom.pocket.plan.grid import columns_across
+from roughfilm.rom.pocket.plan.grid import columns_across, require_resolved
 from roughfilm.rom.pocket.plan.level import levels_of, quantities_of
 from roughfilm.rom.pocket.plan.quantities import plan_fields
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.promise import promise_warnings
-from roughfilm.rom.pocket.validity.warnings import cautions, range_warnings, ruptures
+from roughfilm.rom.pocket.validity.warnings import cautions, column_warnings, inertia_warnings, ruptures, steep_warnings
 
 
 def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:
@@ -25,12 +25,13 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     Raises
     ------
     InputError
-        If the cell is so broad that the resolution needs too many columns.
+        If the cell is so broad that the resolution needs too many columns, or a dimple is narrower than a column.
     ConvergenceError
         If the residual exceeds the tolerance.
     """
     wall, cpu = time.perf_counter(), working_time()
     plan = scene.plan()
+    require_resolved(scene, request.resolution)
     counts = request.resolution, columns_across(plan, request.resolution)
     progress(0.0, f"{counts[0]} x {counts[1]} columns")
     with_inertia = Effect.INERTIA in solver.keeps
@@ -62,7 +63,9 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         warnings=(
             *cautions(scene),
             *promise_warnings(scene, solver.name),
-            *range_warnings(scene, change=finest.change_of_pressure(number)),
+            *column_warnings(scene, request.resolution),
+            *steep_warnings(scene),
+            *inertia_warnings(scene, change=finest.change_of_pressure(number)),
             *ruptures(scene, finest.pressure_range(number)[0] - on_wall.edge_mean),
             *([] if len(levels) > 1 else [NO_COARSER_GRID]),
         ),

@@ -84,17 +84,6 @@ def computed(*, grooves: str, plan: str) -> Callable[..., Result]:
     return compute
 
 
-def not_in_plan(applies: Callable[[Pocket], Applicability]) -> Callable[[Pocket], Applicability]:
-    """The applicability of a model that solves grooves alone."""
-
-    def applies_to(scene: Pocket) -> Applicability:
-        if scene.in_plan:
-            return Applicability(applies=False, reason="solves grooves alone, not cells in plan")
-        return applies(scene)
-
-    return applies_to
-
-
 def film_cost(scene: Pocket, resolution: int) -> float:
     """Expected CPU seconds of the thin-film equations."""
     if not scene.in_plan:

@@ -65,6 +65,9 @@ SCALES: Mapping[str, Scales] = {
 ROUND_OFF = 1e-12
 """Magnitude over the largest one of the same unit in a result below which a value is round-off."""
 
+UNRESOLVED = 1e-8
+"""Uncertainty over the largest magnitude of the same unit below which a value within it is round-off."""
+
 BOUND = 1e-6
 """The bound of an uncertainty that is round-off, over the unit."""
 
@@ -91,6 +94,8 @@ def scale_of(unit: str, size: float) -> tuple[float, str]:
 def without_round_off(quantities: Mapping[str, Quantity]) -> dict[str, Quantity]:
     """The quantities of a result, those that are round-off with the value 0.
 
+    A value is round-off below ``ROUND_OFF``, or if it is less than an uncertainty below ``UNRESOLVED``.
+
     Examples
     --------
     >>> found = without_round_off({"load": Quantity(value=4e-12, unit="Pa"), "p": Quantity(value=1e4, unit="Pa")})
@@ -101,16 +106,18 @@ def without_round_off(quantities: Mapping[str, Quantity]) -> dict[str, Quantity]
     for one in quantities.values():
         if math.isfinite(one.value):
             largest[one.unit] = max(largest.get(one.unit, 0.0), abs(one.value))
-    return {
-        name: replace(one, value=0.0) if abs(one.value) < ROUND_OFF * largest.get(one.unit, 0.0) else one
-        for name, one in quantities.items()
-    }
+
+    def is_round_off(one: Quantity) -> bool:
+        size, uncertainty = largest.get(one.unit, 0.0), one.uncertainty or 0.0
+        return abs(one.value) < ROUND_OFF * size or abs(one.value) <= uncertainty < UNRESOLVED * size
+
+    return {name: replace(one, value=0.0) if is_round_off(one) else one for name, one in quantities.items()}
 
 
 def in_engineering_units(quantities: Mapping[str, Quantity]) -> dict[str, tuple[str, str, str]]:
     """The values, uncertainties and units of the quantities of a result, as texts, from :func:`in_engineering_unit`.
 
-    A value and an uncertainty that are both round-off are written in the unit of the largest value of their dimension.
+    A value of 0 whose uncertainty is round-off has the unit of the largest value of its dimension.
 
     Examples
     --------
@@ -122,8 +129,9 @@ def in_engineering_units(quantities: Mapping[str, Quantity]) -> dict[str, tuple[
     found = {name: in_engineering_unit(one) for name, one in cleared.items()}
     for name, one in cleared.items():
         largest = max(abs(other.value) for other in cleared.values() if other.unit == one.unit)
-        if one.value == 0 != quantities[name].value and (one.uncertainty or math.inf) < BOUND / 1e3 * largest:
-            found[name] = ("0", f"<{BOUND:f}", scale_of(one.unit, largest)[1])
+        size, unit = scale_of(one.unit, largest)
+        if one.value == 0 and 0 < (one.uncertainty or 0.0) < BOUND * size:
+            found[name] = ("0", f"<{BOUND:f}", unit)
     return found
 
 

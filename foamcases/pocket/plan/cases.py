@@ -7,12 +7,12 @@ import numpy as np
 from roughfilm.foamcases.openfoam.one_flow import Run, numerics_of
 from roughfilm.foamcases.pocket.card import Card
 from roughfilm.foamcases.pocket.plan.fields import read_cell
-from roughfilm.rom.ladder.model import Model
+from roughfilm.rom.ladder.model import Effect, Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Result
 from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
 from roughfilm.rom.pocket.scene import Pocket
-from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
+from roughfilm.rom.pocket.validity.warnings import cautions, inertia_warnings, ruptures
 
 MAX_IMBALANCE = 0.005
 """Largest difference of the drags on both walls, over that on the sliding wall, without a warning."""
@@ -36,7 +36,7 @@ def read_plan(solver: Model[Pocket], scene: Pocket, directory: Path, card: Card,
     )
     lowest, highest = flow.pressure_range()
     imbalance = flow.imbalance()
-    remarks = []
+    remarks = [] if Effect.INERTIA in solver.keeps else [*inertia_warnings(scene)]
     if imbalance > MAX_IMBALANCE:
         remarks.append(f"the drags on both walls differ by {imbalance:.1%}; the mesh is too coarse or skew")
     column = film * min(np.diff(x).min(), np.diff(y).min())

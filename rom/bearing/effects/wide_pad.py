@@ -9,16 +9,14 @@ from roughfilm.rom.bearing.models.film import MODEL as FILM
 from roughfilm.rom.bearing.models.film_slope import MODEL as FILM_SLOPE
 from roughfilm.rom.bearing.models.reynolds import MODEL as REYNOLDS
 from roughfilm.rom.bearing.models.reynolds_incompressible import MODEL as REYNOLDS_INCOMPRESSIBLE
-from roughfilm.rom.bearing.scene import Bearing, Inlet
+from roughfilm.rom.bearing.numbers import without_inertia
+from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.wide_pad.model import MIN_CELLS
 from roughfilm.rom.bearing.wide_pad.solve import GRIDS
 from roughfilm.rom.ladder.kind import kind_of
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
-
-NEGLIGIBLE_DENSITY = 1e-9
-"""Density of a liquid without inertia, kg/m³."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -143,17 +141,8 @@ def _film(question: _Question, cells: int) -> WideFilm | None:
         return WideFilm(
             cells=cells,
             film=FILM.solve(scene, request),
-            creeping=FILM.solve(_creeping(scene), request),
+            creeping=FILM.solve(without_inertia(scene), request),
             slope=FILM_SLOPE.solve(scene, request),
         )
     except ConvergenceError:
         return None
-
-
-def _creeping(scene: Bearing) -> Bearing:
-    """The same pad with a negligible density, and with the same pressure at its inlet."""
-    lubricant, boundary = scene.lubricant.model_copy(update={"density": NEGLIGIBLE_DENSITY}), scene.boundary
-    if boundary.inlet.theta is None:
-        inlet = Inlet.model_construct(pressure=scene.inlet_pressure)
-        boundary = boundary.model_copy(update={"inlet": inlet})
-    return scene.model_copy(update={"lubricant": lubricant, "boundary": boundary})

@@ -14,9 +14,9 @@ from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import NO_COARSER_GRID, Numerics, Result, SolverRun, with_uncertainties
 from roughfilm.rom.pocket.cavitating.cells import cell_fields, cell_film, cell_quantities
 from roughfilm.rom.pocket.cavitating.grooves import groove_fields, groove_problem, groove_quantities
-from roughfilm.rom.pocket.plan.grid import columns_across
+from roughfilm.rom.pocket.plan.grid import columns_across, require_resolved
 from roughfilm.rom.pocket.scene import Pocket
-from roughfilm.rom.pocket.validity.warnings import cautions
+from roughfilm.rom.pocket.validity.warnings import cautions, inertia_warnings, steep_warnings
 
 IMBALANCE_FACTOR = 10.0
 """Relative error of a quantity over the relative error of the flow along the film."""
@@ -29,6 +29,8 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
 
     Raises
     ------
+    InputError
+        If a dimple of a cell in plan is narrower than a column.
     ConvergenceError
         If the residual does not meet the tolerance.
     """
@@ -37,6 +39,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     wall, cpu = time.perf_counter(), working_time()
     cells = request.resolution
     if scene.in_plan:
+        require_resolved(scene, cells)
         sides = (cells, columns_across(scene.plan(), cells))
         solution = cell_film(scene, sides, tolerance=request.tolerance, progress=progress)
         quantities, fields = cell_quantities, cell_fields
@@ -52,6 +55,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             uncertainty[name] = of_grid + IMBALANCE_FACTOR * solution.imbalance * abs(quantity.value)
     warnings = [*cautions(scene), *grid_warnings(solution), *([] if uncertainty else [NO_COARSER_GRID])]
     warnings += edge_warnings(scene, solution)
+    warnings += (*steep_warnings(scene), *inertia_warnings(scene)) if scene.in_plan else ()
     return Result(
         model=solver.name,
         quantities=with_uncertainties(levels[0], uncertainty),

@@ -75,6 +75,11 @@ class Dimple(Part):
         c, s = abs(math.cos(angle)), abs(math.sin(angle))
         return (a * c + b * s) / 2, (a * s + b * c) / 2
 
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Distances along x and y from its middle at which its depth ends, with the rounding of its rim, m."""
+        return self.half_spans
+
     def depth_function(self) -> Depth:
         """The depth over the distances along and across from its middle before rotation."""
         raise NotImplementedError
@@ -133,11 +138,24 @@ class _Round(_Turned):
         (a, b), c, s = self.extents, math.cos(self.rotation), math.sin(self.rotation)
         return math.hypot(a * c, b * s) / 2, math.hypot(a * s, b * c) / 2
 
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Distances along x and y from its middle at which its depth ends, with the rounding of its rim, m."""
+        along, across = self.half_spans
+        wider = 1 + self.edge / min(self.extents)
+        return along * wider, across * wider
+
+    @property
+    def largest_edge(self) -> float:
+        """Width of the rounding, m, above which it would make the dimple deeper."""
+        return min(self.extents) / 2
+
     @model_validator(mode="after")
     def _rounding_fits(self) -> Self:
-        if not 0 <= self.edge <= min(self.extents) / 2:
+        if not 0 <= self.edge <= self.largest_edge:
             raise ValueError(
-                f"edge: got {self.edge!r} m; it must be 0 to half of the smaller extent, {min(self.extents) / 2!r} m"
+                f"edge: got {self.edge!r} m; it must be 0 to {self.largest_edge:.9g} m, a wider rounding would "
+                "make the dimple deeper"
             )
         return self
 
@@ -151,6 +169,12 @@ class _Cap(_Round):
     depth : greatest depth, at most half of the smaller extent, m.
     edge : width over which the rim is rounded, m; by default the rim is sharp.
     """
+
+    @property
+    def largest_edge(self) -> float:
+        """Width of the rounding above which it would make the cap deeper, (a² - d²)/a with a half of the extent, m."""
+        half = min(self.extents) / 2
+        return max(0.0, half - self.depth**2 / half)
 
     @model_validator(mode="after")
     def _at_most_a_half(self) -> Self:

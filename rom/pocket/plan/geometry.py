@@ -2,7 +2,7 @@
 
 import math
 from functools import lru_cache
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Annotated, Literal, Self
 
 import numpy as np
@@ -104,11 +104,22 @@ class PlanGeometry(Part):
             rotation, depth = one.place[2], one.depth_function()
             near_x = x - middle_x - self.length * np.round((x - middle_x) / self.length)
             near_y = y - middle_y - self.breadth * np.round((y - middle_y) / self.breadth)
-            if rotation:
-                c, s = math.cos(rotation), math.sin(rotation)
-                near_x, near_y = c * near_x + s * near_y, c * near_y - s * near_x
-            np.maximum(deepest, depth(near_x, near_y), out=deepest)
+            c, s = math.cos(rotation), math.sin(rotation)
+            for dx, dy in self._shifts(one):
+                along, across = near_x + dx, near_y + dy
+                if rotation:
+                    along, across = c * along + s * across, c * across - s * along
+                np.maximum(deepest, depth(along, across), out=deepest)
         return deepest
+
+    def _shifts(self, one: Dimple) -> tuple[tuple[float, float], ...]:
+        """Shifts from the nearest copy of a dimple to those that may reach the same place, m."""
+
+        def along(side: float, reach: float) -> tuple[float, ...]:
+            return (-side, 0.0, side) if math.isfinite(reach) and 2 * reach > side * (1 + SAME) else (0.0,)
+
+        reach = one.reach
+        return tuple(product(along(self.length, reach[0]), along(self.breadth, reach[1])))
 
     def plan(self) -> Plan:
         """The gap between the wall with dimples and the sliding one."""

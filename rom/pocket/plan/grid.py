@@ -1,12 +1,15 @@
 """The columns over a cell in plan, with the film thickness at places between their middles."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.cavitation.shape import CELLS_PER_FEATURE
 from roughfilm.rom.pocket.plan.plan import Plan
+from roughfilm.rom.pocket.scene import Pocket
 
 PARTS = 4
 """Number of parts between the middles of two neighbouring columns at whose ends the film thickness is known; even."""
@@ -62,6 +65,23 @@ def columns_across(plan: Plan, resolution: int) -> int:
             f"across it, in all more than {MAX_COLUMNS}; take a lower resolution, or a part of the cell as its period"
         )
     return across
+
+
+def require_resolved(scene: Pocket, resolution: int) -> None:
+    """Refuse so many columns along a cell if its narrowest dimple is narrower than one, and may lie between them.
+
+    Raises
+    ------
+    InputError
+        If it is.
+    """
+    geometry = scene.geometry
+    least = math.ceil(geometry.length / geometry.narrowest)
+    if resolution < least:
+        raise InputError(
+            f"resolution: got {resolution} columns along the cell, which are wider than the narrowest dimple, "
+            f"{geometry.narrowest:.4g} m; take at least {least}, and {CELLS_PER_FEATURE * least} for accuracy"
+        )
 
 
 def plan_grid(plan: Plan, counts: tuple[int, int]) -> PlanGrid:

@@ -19,7 +19,7 @@ class Change:
     pressure : pressure p₁ at the middles of the columns up to a constant, shape (nx, ny).
     drive : pressure by which inertia would raise a film without flow on the lines from each middle to the next.
     shear_stress : shear stress on the sliding wall over the faces along x, shape (nx, ny).
-    residual : the largest net flow out of a column over the largest driven flow through a face.
+    residual : the largest net flow out of a column over the largest driven flow through a face; 0 without any.
     """
 
     pressure: Array
@@ -63,11 +63,12 @@ def inertia(film: PlanFilm, lines: Lines) -> Change:
     sheared += thicker * _middles(terms.shear_slope(a_line, 1.0))
     by_side = _next_middles(_central(terms.shear_between(h, a, b, 1.0), 1), 0) / dy
     stress = (sheared - 3 * rise).sum(axis=1) / dx + by_side - 6 * along / dy * film.faces.drag / film.faces.east
+    largest = max(float(np.abs(one).max()) for one in driven)
     return Change(
         pressure=pressure,
         drive=drive,
         shear_stress=stress,
-        residual=float(np.abs(outflow(along, across)).max() / max(np.abs(one).max() for one in driven)),
+        residual=float(np.abs(outflow(along, across)).max()) / largest if largest > 0 else 0.0,
     )
 
 

@@ -56,7 +56,8 @@ class Level:
         """The range of the change of pressure by inertia over that of the pressure; None without inertia."""
         if self.change is None:
             return None
-        return reynolds_number * float(np.ptp(self.change.pressure) / np.ptp(self.film.pressure))
+        size = float(np.ptp(self.film.pressure))
+        return reynolds_number * float(np.ptp(self.change.pressure)) / size if size > 0 else 0.0
 
     def on_wall(self, reynolds_number: float) -> OnSlidingWall:
         """Pressure and shear stress on the sliding wall, with inertia to first order in a Reynolds number."""
@@ -122,10 +123,12 @@ def quantities_of(levels: list[Level], scene: Pocket, reynolds_number: float) ->
 
 
 def load_over_pressure(scene: Pocket, columns: int) -> float:
-    """The magnitude of the load over the largest pressure to first order in Re, by so many columns along the cell."""
+    """The magnitude of the load over the largest pressure to first order in Re, by so many columns along the cell.
+
+    It is 0 if all dimples lie between the places of the grid.
+    """
     plan, number = scene.plan(), scene.reynolds_number
     level = level_of(plan, (columns, columns_across(plan, columns)), with_inertia=True)
     wall = level.on_wall(number)
-    return abs(wall.mean(wall.pressure) - wall.edge_mean) / max(
-        abs(one - wall.edge_mean) for one in level.pressure_range(number)
-    )
+    largest = max(abs(one - wall.edge_mean) for one in level.pressure_range(number))
+    return abs(wall.mean(wall.pressure) - wall.edge_mean) / largest if largest > 0 else 0.0

@@ -1,5 +1,6 @@
 """Warnings where a pocket leaves the range of validity of a model."""
 
+from roughfilm.rom.cavitation.shape import CELLS_PER_FEATURE
 from roughfilm.rom.parts.laminar import turbulence_warnings
 from roughfilm.rom.parts.surroundings import rupture_warnings
 from roughfilm.rom.pocket.scene import Pocket
@@ -12,7 +13,7 @@ Of 1200 random pockets 2 % exceed it without another warning; a third of these m
 """
 
 STEEP = 1.0
-"""Mean slope of a dimple above which films without slope were not compared with others in plan."""
+"""Mean slope of a dimple above which thin films were not compared with Navier-Stokes flow in plan."""
 
 INERTIAL = 1.0
 """Re · 2d/w of a cell in plan above which a film without inertia is out of its range.
@@ -59,27 +60,42 @@ def cancellations(scene: Pocket, *, load: float, lowest: float, highest: float) 
     )
 
 
-def range_warnings(scene: Pocket, *, change: float | None) -> tuple[str, ...]:
-    """The warnings where a cell in plan leaves the range of a Reynolds equation.
+def steep_warnings(scene: Pocket) -> tuple[str, ...]:
+    """The warning where a dimple of a cell in plan is too steep for a thin film."""
+    if not scene.slope > STEEP:
+        return ()
+    return (
+        f"the mean slope of the steepest dimple is {scene.slope:.3g}, above {STEEP:g}: the film over it is not thin; "
+        "take navier_stokes",
+    )
+
+
+def column_warnings(scene: Pocket, columns: int) -> tuple[str, ...]:
+    """The warning where the narrowest dimple of a cell in plan has too few of so many columns along the cell."""
+    own = columns * scene.geometry.narrowest / scene.geometry.length
+    if own >= CELLS_PER_FEATURE:
+        return ()
+    return (
+        f"the narrowest dimple has {own:.2g} columns, and the uncertainties may be too small; take at least "
+        f"{CELLS_PER_FEATURE / own:.2g} times the resolution",
+    )
+
+
+def inertia_warnings(scene: Pocket, *, change: float | None = None) -> tuple[str, ...]:
+    """The warning where a model without inertia, or with inertia to first order, leaves its range over a cell in plan.
 
     ``change`` is the greatest change of pressure by first-order inertia over the range of pressure without it; None
     for a model without inertia.
     """
-    warnings = []
-    if scene.slope > STEEP:
-        warnings.append(
-            f"the mean slope of the steepest dimple is {scene.slope:.3g}, above {STEEP:g}: the film over it is not "
-            "thin; take navier_stokes"
-        )
     inertial = scene.reynolds_number * scene.aspect
     if change is None and inertial > INERTIAL:
-        warnings.append(
+        return (
             f"Re · 2d/w = {inertial:.3g} is above {INERTIAL:g}: inertia, which is left out, may change the load by a "
-            "quarter of the largest pressure; take film or film_slope"
+            "quarter of the largest pressure; take film or film_slope",
         )
     if change is not None and change > SECOND_ORDER:
-        warnings.append(
+        return (
             f"to first order in Re, inertia changes the pressure by {change:.3g} times its range without inertia: "
-            "higher orders are left out and may be as large; take film or film_slope"
+            "higher orders are left out and may be as large; take film or film_slope",
         )
-    return tuple(warnings)
+    return ()

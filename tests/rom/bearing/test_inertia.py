@@ -22,6 +22,7 @@ from roughfilm.rom.bearing.effects.inertia import (
 )
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.inertia import Inertia, inertia
+from roughfilm.rom.bearing.numbers import without_inertia
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
@@ -255,6 +256,14 @@ def test_the_uncertainty_covers_models_with_full_inertia() -> None:
     assert change.pocket.model in ("inertial_reynolds", "film", "film_slope")
     assert change.untextured_load == pytest.approx(0.0, abs=1e-9 * change.amounts["load"].value)
     assert abs(change.amounts["load"].value - truth) <= change.amounts["load"].uncertainty < 0.1 * truth
+
+
+def test_inertia_of_a_pad_with_several_pockets_is_that_of_the_film_whose_sign_the_first_order_misses() -> None:
+    scene, film = load_scene(SCENES / "wide_pad.toml"), find("bearing", "film")
+    load = inertia_added(Variant(scene=scene), 512, ladder(rom, foamcases)).amounts["load"]
+    whole, creeping = (film.solve(one)["load_per_width"].value for one in (scene, without_inertia(scene)))
+    assert load.value < 0
+    assert abs(load.value - (whole - creeping)) <= load.uncertainty
 
 
 def test_inertia_thickens_a_wedge_film_until_its_load_is_the_same() -> None:

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.words.units import SCALES, in_engineering_unit
+from roughfilm.words.units import SCALES, in_engineering_unit, in_engineering_units
 
 
 def shown(value, unit, uncertainty=None):
@@ -56,3 +56,13 @@ def test_every_number_has_a_unit_and_its_value_back(unit, power):
     value, _, name = shown(3.0 * 10.0**power, unit)
     assert name or unit == "1"
     assert float(value) > 0
+
+
+def test_a_value_within_an_uncertainty_that_is_round_off_is_zero():
+    values = {"load": (1e-11, 6e-11), "corner": (2e-10, 5e-9), "peak": (4.4, 0.2)}
+    given = {name: Quantity(value=value, unit="1", uncertainty=size) for name, (value, size) in values.items()}
+    shown = in_engineering_units(given)
+    assert shown["load"] == shown["corner"] == ("0", "<0.000001", "")
+    assert shown["peak"] == ("4.4", "0.2", "")
+    resolved = {**given, "load": Quantity(value=1e-4, unit="1", uncertainty=1e-5)}
+    assert in_engineering_units(resolved)["load"] == in_engineering_unit(resolved["load"])

@@ -32,8 +32,11 @@ class LinearFilm:
     velocities: Velocities
     residual: float
 
-    def response(self, imbalance: Array, *, tolerance: float) -> SheetFlow | None:
-        """The change of the flow that removes an imbalance, given as a flat vector; None if it is not found."""
+    def response(self, imbalance: Array, *, tolerance: float) -> tuple[SheetFlow | None, int]:
+        """The change of the flow that removes an imbalance, None if it is not found, and the number of products.
+
+        The imbalance is a flat vector.
+        """
         shape = self.flow.shape
 
         def changed(vector: Array) -> Array:
@@ -45,30 +48,34 @@ class LinearFilm:
         found = minimal_residual(
             changed, -imbalance, preconditioner=preconditioned, tolerance=tolerance, most=MAX_PRODUCTS
         )
-        return SheetFlow(flat=found.solution, shape=shape) if found.residual <= tolerance else None
+        change = SheetFlow(flat=found.solution, shape=shape) if found.residual <= tolerance else None
+        return change, found.products
 
 
 def attempt(
     sheet: Sheet, basis: Basis, reynolds_number: float, flow: SheetFlow, tolerance: float
-) -> tuple[SheetFlow, LinearFilm | None, int]:
-    """The flow at one Reynolds number, its linear equations (None without convergence), and the number of steps.
+) -> tuple[SheetFlow, LinearFilm | None, int, int]:
+    """The flow at one Reynolds number, its linear equations (None without convergence), and its cost.
 
-    The tolerance of the linear systems decreases with the residual.
+    The cost is the number of steps and that of products with their matrices. The tolerance of the linear systems
+    decreases with the residual.
     """
     film = Film(sheet=sheet, basis=basis, reynolds_number=reynolds_number)
     parallel, least, steps = ParallelFilm.of(film), np.inf, 0
+    total = 0
     while True:
         velocities = film.velocities(flow)
         imbalance = film.imbalance(flow, velocities)
         residual = float(np.abs(imbalance.flat).max() / film.force(flow, velocities))
         linear = LinearFilm(film=film, parallel=parallel, flow=flow, velocities=velocities, residual=residual)
         if residual <= tolerance and steps:
-            return flow, linear, steps
+            return flow, linear, steps, total
         if not residual < 100 * least or steps == NEWTON_STEPS:
-            return flow, None, steps
+            return flow, None, steps, total
         least = min(least, residual)
         forcing = min(max(TOLERANCE_SHARE * max(residual, tolerance / residual), FORCING[0]), FORCING[1])
-        change = linear.response(imbalance.flat, tolerance=forcing)
+        change, products = linear.response(imbalance.flat, tolerance=forcing)
+        total += products
         if change is None:
-            return flow, None, steps
+            return flow, None, steps, total
         flow, steps = SheetFlow(flat=flow.flat + change.flat, shape=flow.shape), steps + 1

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.contact.foundation.timing import working_time
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.cavitation.evaluation.grids import MAX_GRID_RATIO, grid_uncertainty
@@ -17,10 +17,11 @@ from roughfilm.rom.pocket.model import SCHEMES
 from roughfilm.rom.pocket.plan.film import newton, slope
 from roughfilm.rom.pocket.plan.film.equations import Film, SheetFlow
 from roughfilm.rom.pocket.plan.film.sheet import Sheet, sheet
+from roughfilm.rom.pocket.plan.grid import require_resolved
 from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.promise import promise_warnings
-from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
+from roughfilm.rom.pocket.validity.warnings import cautions, ruptures, steep_warnings
 from roughfilm.rom.thin_film.basis import even_basis, gauss_basis, sliding_wall_slope
 from roughfilm.rom.thin_film.continuation import continued
 from roughfilm.rom.thin_film.newton import mode_warnings
@@ -39,6 +40,12 @@ MIN_COARSE = 12
 
 COARSE_TOLERANCE = 1e-8
 """Smallest tolerance of the residual on a coarser grid."""
+
+MAX_TOTAL_PRODUCTS = 3600
+"""Number of products with the matrices of the linear systems after which the continuation in Re stops.
+
+Most random cells need 50 to 800, and the hardest ones that converge need 2400.
+"""
 
 RESPONSE_TOLERANCE = 1e-6
 """Tolerance of the linear response to the slope, relative to the neglected force."""
@@ -62,12 +69,27 @@ def solve_sheet(
     Raises
     ------
     ConvergenceError
-        If Newton's method does not converge to the tolerance, or the response to the slope is not found.
+        If Newton's method does not converge to the tolerance or needs too many products with its matrices, or the
+        response to the slope is not found.
     """
-    basis = gauss_basis(MODES)
+    basis, spent = gauss_basis(MODES), 0
+
+    def attempt(at: float, begin: SheetFlow) -> tuple[SheetFlow, newton.LinearFilm | None, int]:
+        nonlocal spent
+        flow, linear, steps, products = newton.attempt(grid, basis, at, begin, tolerance)
+        spent += products
+        if spent > MAX_TOTAL_PRODUCTS and (linear is None or at < reynolds_number):
+            raise ConvergenceError(
+                f"the film equations did not converge to a steady flow at Re = {reynolds_number:.4g} in {spent} "
+                f"iterations of the linear solver (last attempt: Re = {at:.4g}); take navier_stokes, a coarser "
+                "resolution or shallower dimples",
+                outcome=Outcome.UNFINISHED,
+            )
+        return flow, linear, steps
+
     with np.errstate(all="ignore"):
         flow, linear, steps = continued(
-            lambda at, begin: newton.attempt(grid, basis, at, begin, tolerance),
+            attempt,
             Film(sheet=grid, basis=basis, reynolds_number=0.0).still(),
             reynolds_number,
             progress,
@@ -75,9 +97,9 @@ def solve_sheet(
         )
         if with_slope:
             force = slope.imbalance(linear.film, flow, linear.velocities)
-            change = linear.response(force, tolerance=RESPONSE_TOLERANCE)
+            change, _ = linear.response(force, tolerance=RESPONSE_TOLERANCE)
             if change is None:
-                raise ConvergenceError("the slope correction of the film is not finite here; take navier_stokes")
+                raise ConvergenceError("the slope correction did not converge; take film or navier_stokes")
             flow = SheetFlow(flat=flow.flat + change.flat, shape=flow.shape)
     return PlanFilm(sheet=grid, flow=flow, residual=linear.residual, steps=steps)
 
@@ -139,12 +161,13 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     Raises
     ------
     InputError
-        If the cell is so broad that the resolution needs too many columns.
+        If the cell is so broad that the resolution needs too many columns, or a dimple is narrower than a column.
     ConvergenceError
         If Newton's method does not converge to the tolerance.
     """
     wall, cpu = time.perf_counter(), working_time()
     second_order, with_slope = request.scheme == SCHEMES[0], Effect.SLOPE in solver.keeps
+    require_resolved(scene, request.resolution)
     film = solve_sheet(
         sheet(scene.plan(), request.resolution, second_order=second_order),
         scene.reynolds_number,
@@ -184,6 +207,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         warnings=(
             *cautions(scene),
             *promise_warnings(scene, solver.name),
+            *steep_warnings(scene),
             *mode_warnings(film.flow.along, MODES),
             *ruptures(scene, float(film.flow.pressure.min()) - on_wall.edge_mean),
             *([] if uncertainties else [NO_COARSER_GRID]),

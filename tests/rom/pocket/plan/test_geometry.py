@@ -117,6 +117,25 @@ def test_a_rounded_rim_has_a_continuous_slope_and_the_same_depth():
     assert rounded.depth == sharp.depth == pytest.approx(0.25)
 
 
+@pytest.mark.parametrize("depth", [0.02e-3, 0.1e-3, 0.14e-3])
+def test_the_widest_rounding_of_a_cap_leaves_its_depth(depth):
+    a = 0.15e-3
+    widest = (a**2 - depth**2) / a
+    scene = cell_of("spherical", depth=f"{depth} m", edge=f"{widest * 0.999} m")
+    assert scene.plan().thickness(np.zeros(1), np.zeros(1)) == pytest.approx(scene.geometry.film + depth)
+    with pytest.raises(InputError, match=r"dimples.0.edge: got .* it must be 0 to .* would make the dimple deeper"):
+        cell_of("spherical", depth=f"{depth} m", edge=f"{widest * 1.001} m")
+
+
+def test_a_rounding_that_reaches_over_the_border_goes_on_at_the_other_side():
+    scene = cell_of("ellipsoidal", width="0.6 mm", breadth="0.79 mm", rotation="30 deg", edge="0.29 mm")
+    plan = scene.plan()
+    x = np.linspace(-0.5e-3, 0.5e-3, 41)
+    sides = [plan.thickness(x, np.array(side * (0.4e-3 - 1e-12))) for side in (-1, 1)]
+    assert sides[0].max() > plan.film * 1.001
+    assert sides[0] == pytest.approx(sides[1], rel=1e-6)
+
+
 def test_the_covered_part_is_the_area_of_the_outlines():
     assert cell_of("spherical").geometry.covered == pytest.approx(math.pi / 4 * 0.09 / 0.8, rel=1e-2)
     assert cell_of("spherical", "staggered").geometry.covered == pytest.approx(math.pi / 2 * 0.09 / 0.8, rel=1e-2)

@@ -53,6 +53,21 @@ def test_a_cell_that_is_too_broad_is_refused():
         INERTIAL.solve(scene_of("spherical", breadth="1 m"))
 
 
+@pytest.mark.parametrize("model", ["reynolds", "film", "reynolds_cavitating"])
+def test_a_dimple_that_is_narrower_than_a_column_is_refused(model):
+    entries = scene_entries(load_scene(SCENES / "dimple.toml"))
+    own = {"shape": "spherical", "width": "9 um", "depth": "1 um"}
+    narrow = read_scene({**entries, "geometry": {**entries["geometry"], "film": "3 um", "dimples": [own]}})
+    with pytest.raises(InputError, match=r"got 64 columns .* narrowest dimple, 9e-06 m; take at least 112"):
+        find("pocket", model).solve(narrow, Request(resolution=64))
+
+
+def test_few_columns_over_a_dimple_are_warned_of():
+    few, enough = (INERTIAL.solve(scene_of("spherical"), Request(resolution=n)).warnings for n in (16, 32))
+    assert any("the narrowest dimple has 4.8 columns" in one for one in few)
+    assert not any("columns" in one for one in enough)
+
+
 def test_the_load_over_the_pressure_is_that_to_first_order_in_the_reynolds_number():
     scene = scene_of("spherical")
     found = INERTIAL.solve(scene, Request(resolution=64))

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.request import Request
+from roughfilm.rom.pocket.plan.film import solve
 from roughfilm.rom.pocket.plan.film.equations import Film, SheetFlow
 from roughfilm.rom.pocket.plan.film.parallel import ParallelFilm
 from roughfilm.rom.pocket.plan.film.sheet import sheet, sheet_of
@@ -225,3 +227,11 @@ def test_order_of_accuracy_in_load(scheme, lowest):
         )
         loads.append(wall.mean(wall.pressure) - wall.edge_mean)
     assert np.log2(abs((loads[0] - loads[1]) / (loads[1] - loads[2]))) > lowest
+
+
+def test_a_search_without_end_stops_after_a_number_of_products(monkeypatch):
+    monkeypatch.setattr(solve, "MAX_TOTAL_PRODUCTS", 20)
+    monkeypatch.setattr(solve.newton, "MAX_PRODUCTS", 10)
+    grid = sheet(make_cell(300.0, depth="90 um").plan(), 16)
+    with pytest.raises(ConvergenceError, match=r"did not converge to a steady flow at Re = 300 in \d\d iterations"):
+        solve_sheet(grid, 300.0, tolerance=1e-8, with_slope=False)
