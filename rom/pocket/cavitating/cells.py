@@ -141,8 +141,8 @@ def _at_mean(
         inside = low < step < high
         level = step if inside else (low + high) / 2 if low > 0 else max(min(step, high), 0.0)
     raise ConvergenceError(
-        f"cavitation: no pressure gives the mean pressure over the edges of the cell, {excess:.3g} Pa of it are left; "
-        "take more cells",
+        "cavitation: no film was found whose mean pressure over the edges of the cell is ambient; the last one differs "
+        f"by {excess:.3g} Pa; take more cells",
         outcome=Outcome.UNFINISHED,
     )
 

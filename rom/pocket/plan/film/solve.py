@@ -41,6 +41,12 @@ MIN_COARSE = 12
 COARSE_TOLERANCE = 1e-8
 """Smallest tolerance of the residual on a coarser grid."""
 
+MAX_KNOWN_RESIDUAL = 1e-7
+"""Residual above which the error of the iteration may exceed that of the grid, so that no uncertainty is known.
+
+At a residual of 5e-4 the load over a spherical cap was wrong by 12 %.
+"""
+
 MAX_TOTAL_PRODUCTS = 3600
 """Number of products with the matrices of the linear systems after which the continuation in Re stops.
 
@@ -49,6 +55,9 @@ Most random cells need 50 to 800, and the hardest ones that converge need 2400.
 
 RESPONSE_TOLERANCE = 1e-6
 """Tolerance of the linear response to the slope, relative to the neglected force."""
+
+LOOSE = "the residual is above {:g}, so that the error is unknown; take that as the tolerance"
+"""The warning of a film that is not converged enough for an uncertainty."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -185,7 +194,8 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         with_slope=with_slope,
     )
     values, uncertainties = [_quantities(scene, one) for one in films], {}
-    if len(films) > 1:
+    loose = max(one.residual for one in films) > MAX_KNOWN_RESIDUAL
+    if len(films) > 1 and not loose:
         cells = [float(np.sqrt(np.prod(one.sheet.shape))) for one in films]
         uncertainties = {name: grid_uncertainty(cells, [one[name].value for one in values]) for name in values[0]}
     on_wall = on_sliding_wall(film)
@@ -210,6 +220,6 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             *steep_warnings(scene),
             *mode_warnings(film.flow.along, MODES),
             *ruptures(scene, float(film.flow.pressure.min()) - on_wall.edge_mean),
-            *([] if uncertainties else [NO_COARSER_GRID]),
+            *([LOOSE.format(MAX_KNOWN_RESIDUAL)] if loose else [] if uncertainties else [NO_COARSER_GRID]),
         ),
     )

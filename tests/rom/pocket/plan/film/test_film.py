@@ -235,3 +235,12 @@ def test_a_search_without_end_stops_after_a_number_of_products(monkeypatch):
     grid = sheet(make_cell(300.0, depth="90 um").plan(), 16)
     with pytest.raises(ConvergenceError, match=r"did not converge to a steady flow at Re = 300 in \d\d iterations"):
         solve_sheet(grid, 300.0, tolerance=1e-8, with_slope=False)
+
+
+def test_a_film_that_is_not_converged_has_no_uncertainty():
+    scene = make_cell(100.0)
+    loose, tight = (FILM_SLOPE.solve(scene, Request(resolution=32, tolerance=size)) for size in (1e-2, 1e-8))
+    assert abs(loose["load_plus"].value / tight["load_plus"].value - 1) > 1e-3
+    assert loose["load_plus"].uncertainty is None
+    assert any("the residual is above 1e-07" in one for one in loose.warnings)
+    assert tight["load_plus"].uncertainty is not None
