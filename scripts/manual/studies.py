@@ -19,8 +19,8 @@ def pages() -> Mapping[str, str]:
 
     Examples
     --------
-    >>> sorted(pages())[:2]
-    ['coverage', 'index']
+    >>> sorted(pages())[:3]
+    ['coverage', 'dimples', 'index']
     """
     index = ["# Studies", "", "Each study is a program in `scripts/studies` that recomputes published figures or tests"]
     index += ["published claims.", "", "```{toctree}", *NAMES, "```", ""]
