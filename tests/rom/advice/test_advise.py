@@ -27,7 +27,7 @@ class Fakes:
     LOADS = {"reynolds": 1.20, "film": 1.04, "navier_stokes": 1.00}  # noqa: RUF012
     COSTS = {"reynolds": 1e-4, "film": 1e-2, "navier_stokes": 3.0}  # noqa: RUF012
 
-    def __init__(self, told, loads=None, costs=None, available=True):
+    def __init__(self, errors, loads=None, costs=None, available=True):
         self.loads, self.costs = {**self.LOADS, **(loads or {})}, {**self.COSTS, **(costs or {})}
         self.ran = []
         keeps = {"reynolds": set(), "film": {Effect.INERTIA}, "navier_stokes": {Effect.INERTIA, Effect.SLOPE}}
@@ -40,7 +40,7 @@ class Fakes:
                 towards=above,
                 adds="something",
                 tells="",
-                left_out={"load_plus": law(told[name])} if told.get(name) is not None else {},
+                left_out={"load_plus": law(errors[name])} if errors.get(name) is not None else {},
             )
             for name, above in towards.items()
         ]
@@ -235,21 +235,21 @@ def test_what_has_failed_is_not_run_again(scene):
 
 
 def test_a_rung_of_which_no_tolerance_is_left_is_not_called_not_needed(scene, monkeypatch):
-    told = Omission(part=0.3, reason="heat, which no rung keeps")
-    kind = replace(kinds()["pocket"], omitted=lambda _scene, _model, _quantity: told)
+    known_omission = Omission(part=0.3, reason="heat, which no rung keeps")
+    kind = replace(kinds()["pocket"], omitted=lambda _scene, _model, _quantity: known_omission)
     monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_scene", lambda _scene: kind)
     found = Fakes({"reynolds": None, "film": 0.0}).advise(scene, 0.05)
     assert {one.verdict for one in found.considered} == {Verdict.NOT_ENOUGH}
 
 
 def test_an_effect_that_one_model_leaves_out_counts_for_that_model_alone(scene, monkeypatch):
-    told = Omission(part=0.3, reason="cavitation", source="estimated from its effect")
+    known_omission = Omission(part=0.3, reason="cavitation", source="estimated from its effect")
     kind = replace(
-        kinds()["pocket"], omitted=lambda _scene, model, _quantity: told if model.name == "reynolds" else None
+        kinds()["pocket"], omitted=lambda _scene, model, _quantity: known_omission if model.name == "reynolds" else None
     )
     monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_scene", lambda _scene: kind)
     found = Fakes({"reynolds": 0.01, "film": 0.0}).advise(scene, 0.05)
-    assert (found.chosen.model, found.omitted) == ("film", {"reynolds": told})
+    assert (found.chosen.model, found.omitted) == ("film", {"reynolds": known_omission})
     first = found.considered[0]
     assert (first.model, first.verdict) == ("reynolds", Verdict.NOT_ENOUGH)
     assert first.stated.error == pytest.approx(0.31)
@@ -332,13 +332,13 @@ def test_a_law_that_is_left_does_not_count_as_an_estimate(scene):
 
 
 def test_what_every_rung_leaves_out_counts_too(scene, monkeypatch):
-    told = Omission(part=0.03, reason="heat, which no rung keeps")
-    kind = replace(kinds()["pocket"], omitted=lambda _scene, _model, _quantity: told)
+    known_omission = Omission(part=0.03, reason="heat, which no rung keeps")
+    kind = replace(kinds()["pocket"], omitted=lambda _scene, _model, _quantity: known_omission)
     monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_scene", lambda _scene: kind)
     fakes = Fakes({"reynolds": 0.01, "film": 0.0}, {"reynolds": 1.006, "film": 1.0})
     assert fakes.advise(scene, 0.05).chosen.model == "reynolds"
     found = fakes.advise(scene, 0.02)
-    assert (found.chosen, set(found.omitted.values())) == (None, {told})
+    assert (found.chosen, set(found.omitted.values())) == (None, {known_omission})
     assert fakes.ran == ["reynolds", "film"], "nothing more is run where nothing is left of the tolerance"
     assert fakes.advise(scene, 0.035).chosen.model == "film", "0.5 % is left, and reynolds is 0.6 % off"
 

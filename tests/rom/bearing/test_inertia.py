@@ -313,7 +313,7 @@ def test_a_wide_pad_has_all_of_inertia_and_slope_to_second_order(direction: int)
 @pytest.mark.parametrize(
     "tables",
     [{"geometry": {"width": "1 mm"}}, {"lubricant": {"cavitation_pressure": "-1 kPa"}}],
-    ids=["narrow", "torn"],
+    ids=["narrow", "ruptured"],
 )
 def test_other_pads_have_inertia_to_first_order(tables: dict[str, Any]) -> None:
     scene = bearing(speed_of(160), **tables)

@@ -43,13 +43,13 @@ def page_of(path):
 def test_solve_tells_the_table_of_the_source(tmp_path):
     out = tmp_path / "r.h5"
     arguments = ["--set", "boundary.inlet.theta=0.55", "--model", "reynolds_cavitating", "--json", "--out", out]
-    told = json.loads(run("solve", SLIDER, *arguments).stdout)
-    found = {name: quantity["value"] for name, quantity in told["quantities"].items()}
+    message = json.loads(run("solve", SLIDER, *arguments).stdout)
+    found = {name: quantity["value"] for name, quantity in message["quantities"].items()}
     assert found["load_per_width"] == pytest.approx(41640.25, rel=1e-5)
     assert found["film_start"] == pytest.approx(0.15624, abs=1e-5)
     assert found["rupture"] == pytest.approx(0.65811, abs=1e-5)
-    assert told["quantities"]["load_per_width"]["unit"] == "N/m"
-    assert told["quantities"]["load_per_width"]["uncertainty"] < 1e-4 * found["load_per_width"]
+    assert message["quantities"]["load_per_width"]["unit"] == "N/m"
+    assert message["quantities"]["load_per_width"]["uncertainty"] < 1e-4 * found["load_per_width"]
     fields = load(out).fields
     assert fields["pressure"].values.max() == pytest.approx(found["pressure_max"])
     assert fields["density_ratio"].values.min() == pytest.approx(0.55, abs=1e-9)
@@ -82,8 +82,8 @@ def test_pressures_that_no_lubricant_bears_are_no_answer():
     law = ["compressibility.law=incompressible", "piezoviscosity.law=barus", "piezoviscosity.pressure_coefficient="]
     options = [part for change in law for part in ("--set", f"lubricant.{change}")]
     options[-1] += "0.2 MPa^-1"
-    told = json.loads(run("solve", SLIDER, "--model", "reynolds_cavitating", "--json", *options).stdout)
-    assert told["quantities"]["pressure_max"]["value"] == pytest.approx(-5e6 * math.log(1 - 0.2 * 3.59182), rel=2e-4)
+    message = json.loads(run("solve", SLIDER, "--model", "reynolds_cavitating", "--json", *options).stdout)
+    assert message["quantities"]["pressure_max"]["value"] == pytest.approx(-5e6 * math.log(1 - 0.2 * 3.59182), rel=2e-4)
     options[-1] = options[-1].replace("0.2", "0.3")
     result = run("solve", SLIDER, "--model", "reynolds_cavitating", *options)
     assert result.exit_code == 3
@@ -94,14 +94,14 @@ def test_pressures_that_no_lubricant_bears_are_no_answer():
 def test_compare_on_a_line(tmp_path):
     result = run("compare", SLIDER, "--out", tmp_path / "study", "--json")
     assert result.exit_code == 0, result.stderr
-    told = json.loads(result.stdout)
-    assert told["model"] == "reynolds_cavitating"
-    effects = {(d["other"], d["model"], d["effect"]) for d in told["differences"] if d["effect"]}
+    message = json.loads(result.stdout)
+    assert message["model"] == "reynolds_cavitating"
+    effects = {(d["other"], d["model"], d["effect"]) for d in message["differences"] if d["effect"]}
     assert effects == {
         ("reynolds", "reynolds_incompressible", "cavitation"),
         ("reynolds_incompressible", "reynolds_cavitating", "pressure dependence"),
     }
-    assert set(told["absent"]) == {"infinitely_wide", "homogenized", "direct", "mixed", *WITH_INERTIA_OR_SLOPE}
+    assert set(message["absent"]) == {"infinitely_wide", "homogenized", "direct", "mixed", *WITH_INERTIA_OR_SLOPE}
     page = page_of(tmp_path / "study" / "report.html")
     assert page.outside == []
     assert page.tags.count("svg") == 3
@@ -109,8 +109,8 @@ def test_compare_on_a_line(tmp_path):
 
 def test_cavitation_carries_the_textured_slider(tmp_path):
     result = run("compare", SCENES / "textured_slider.toml", "--out", tmp_path / "study", "--json")
-    told = json.loads(result.stdout)
-    loads = {part["model"]: part["quantities"]["load_per_width"]["value"] for part in told["models"]}
+    message = json.loads(result.stdout)
+    loads = {part["model"]: part["quantities"]["load_per_width"]["value"] for part in message["models"]}
     assert abs(loads["reynolds"]) < 1e-6 * loads["reynolds_cavitating"]
     assert loads["reynolds_incompressible"] == pytest.approx(loads["reynolds_cavitating"])
 
@@ -118,14 +118,14 @@ def test_cavitation_carries_the_textured_slider(tmp_path):
 def test_compare_in_the_plane(tmp_path):
     result = run("compare", SCENES / "journal.toml", "--out", tmp_path / "study", "--json")
     assert result.exit_code == 0, result.stderr
-    told = json.loads(result.stdout)
-    assert set(told["absent"]) == {"homogenized", "direct", "mixed", *WITH_INERTIA_OR_SLOPE}
-    assert {d["effect"] for d in told["differences"] if d["effect"]} == {
+    message = json.loads(result.stdout)
+    assert set(message["absent"]) == {"homogenized", "direct", "mixed", *WITH_INERTIA_OR_SLOPE}
+    assert {d["effect"] for d in message["differences"] if d["effect"]} == {
         "cavitation",
         "pressure dependence",
         "side flow",
     }
-    assert told["convergence"]["reynolds_cavitating"]["load_per_width"]["order"] == pytest.approx(2, abs=0.1)
+    assert message["convergence"]["reynolds_cavitating"]["load_per_width"]["order"] == pytest.approx(2, abs=0.1)
     page = page_of(tmp_path / "study" / "report.html")
     assert page.outside == []
     assert page.tags.count("svg") == 4
@@ -160,8 +160,8 @@ def test_batch_and_report(tmp_path):
     assert {row["kind"] for row in rows} == {"bearing"}
     result = run("report", tmp_path / "done", "--json")
     assert result.exit_code == 0, result.output
-    told = json.loads(result.stdout)
-    assert told["reference"] == "reynolds_cavitating"
-    plain = next(row for row in told["settings"] if row["setting"] == "reynolds_incompressible")
+    message = json.loads(result.stdout)
+    assert message["reference"] == "reynolds_cavitating"
+    plain = next(row for row in message["settings"] if row["setting"] == "reynolds_incompressible")
     assert plain["error"]["load_per_width"]["worst"] > 0.05
     assert page_of(tmp_path / "done" / "report.html").outside == []

@@ -71,11 +71,11 @@ def test_models_are_shown_by_kind_of_scene():
 
 def test_solve(scene, tmp_path):
     out = tmp_path / "r.h5"
-    told = json.loads(run("solve", scene, "--model", "elastic_plastic", "--json", "--out", out).stdout)
-    assert told["quantities"]["area_fraction"]["unit"] == "1"
-    assert told["quantities"]["mean_gap"]["unit"] == "m"
-    assert told["numerics"]["residual"] <= 1e-8
-    assert told["provenance"]["heights"]["points"] == [64, 64]
+    message = json.loads(run("solve", scene, "--model", "elastic_plastic", "--json", "--out", out).stdout)
+    assert message["quantities"]["area_fraction"]["unit"] == "1"
+    assert message["quantities"]["mean_gap"]["unit"] == "m"
+    assert message["numerics"]["residual"] <= 1e-8
+    assert message["provenance"]["heights"]["points"] == [64, 64]
     assert load(out).fields["gap"].values.shape == (64, 64)
 
 
@@ -111,16 +111,16 @@ class Page(HTMLParser):
 def test_compare(scene, tmp_path):
     result = run("compare", scene, "--out", tmp_path / "study", "--json")
     assert result.exit_code == 0, result.stderr
-    told = json.loads(result.stdout)
-    assert told["model"] == "elastic_plastic"
-    assert {part["model"] for part in told["models"]} == set(views()["dry_contact"].styles)
-    effects = {(d["other"], d["model"], d["effect"], d["quantity"]) for d in told["differences"] if d["effect"]}
+    message = json.loads(result.stdout)
+    assert message["model"] == "elastic_plastic"
+    assert {part["model"] for part in message["models"]} == set(views()["dry_contact"].styles)
+    effects = {(d["other"], d["model"], d["effect"], d["quantity"]) for d in message["differences"] if d["effect"]}
     assert ("elastic", "elastic_plastic", "plasticity", "area_fraction") in effects
     assert ("bearing_area", "elastic_plastic", "deformation", "mean_gap") in effects
-    gaps = {d["model"] for d in told["differences"] if d["quantity"] == "mean_gap" and not d["effect"]}
+    gaps = {d["model"] for d in message["differences"] if d["quantity"] == "mean_gap" and not d["effect"]}
     assert gaps == {"greenwood_williamson", "bearing_area", "elastic"}
-    assert told["cheapest_within_10_percent"] != "persson"
-    assert {point["resolution"] for point in told["chart"]["points"]} == {8, 16, 32, 64}
+    assert message["cheapest_within_10_percent"] != "persson"
+    assert {point["resolution"] for point in message["chart"]["points"]} == {8, 16, 32, 64}
     page = Page()
     page.feed((tmp_path / "study" / "report.html").read_text(encoding="utf-8"))
     assert page.outside == []
@@ -132,9 +132,9 @@ def test_compare(scene, tmp_path):
 
 def test_an_elastic_body_leaves_the_bearing_area_out(scene, tmp_path):
     scene.write_text(SCENE.replace('hardness = "4 GPa"', ""), encoding="utf-8")
-    told = json.loads(run("compare", scene, "--out", tmp_path / "study", "--json").stdout)
-    assert set(told["absent"]) == {"bearing_area"}
-    assert told["cheapest_within_10_percent"] in ("elastic", "elastic_plastic", "persson", "greenwood_williamson")
+    message = json.loads(run("compare", scene, "--out", tmp_path / "study", "--json").stdout)
+    assert set(message["absent"]) == {"bearing_area"}
+    assert message["cheapest_within_10_percent"] in ("elastic", "elastic_plastic", "persson", "greenwood_williamson")
     assert "no hardness: elastic" in (tmp_path / "study" / "report.html").read_text(encoding="utf-8")
 
 
@@ -143,8 +143,8 @@ def test_heights_that_changed_are_pressed_again(scene, tmp_path):
         np.save(tmp_path / "s.npy", heights)
         text = SCENE[: SCENE.index("[geometry")] + '[geometry]\nsurface = "s.npy"\nspacing = "1 um"\n'
         scene.write_text(text + SCENE[SCENE.index("[solid]") :], encoding="utf-8")
-        told = json.loads(run("compare", scene, "--out", tmp_path / "study", "--json").stdout)
-        return told["quantities"]["area_fraction"]["value"]
+        message = json.loads(run("compare", scene, "--out", tmp_path / "study", "--json").stdout)
+        return message["quantities"]["area_fraction"]["value"]
 
     noise = np.random.default_rng(20071).standard_normal((32, 32))
     assert compared(1e-8 * noise) > 1.5 * compared(4e-8 * noise)
