@@ -9,11 +9,10 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.bearing.dictionaries import SIDES, STEPS, pad_dictionaries
 from roughfilm.foamcases.bearing.mesh import Plane, layers_of, plane_of, step_obstacle
 from roughfilm.foamcases.bearing.units import pressure_difference, velocity_unit
-from roughfilm.foamcases.openfoam.allrun import allrun
 from roughfilm.foamcases.openfoam.block_mesh import in_space, write_block
-from roughfilm.foamcases.openfoam.case_directory import write_papers, write_whole, written_for
 from roughfilm.foamcases.openfoam.dialect import Dialect
-from roughfilm.foamcases.openfoam.dictionaries import write_files, write_second_try
+from roughfilm.foamcases.openfoam.dictionaries import write_files
+from roughfilm.foamcases.openfoam.one_flow import write_flow
 from roughfilm.foamcases.openfoam.relaxation import velocity_relaxation
 from roughfilm.foamcases.openfoam.residuals import Judged
 from roughfilm.rom.bearing.scene import Bearing
@@ -120,7 +119,6 @@ def write_pad_case(
     readme = README.format(
         pressure=pascal * reynolds_number, outlet=scene.boundary.outlet.pressure, speed=speed, film=film
     )
-    readme += written_for(dialect)
 
     def fill(place: Path) -> None:
         write_block(in_space(mesh.vertices), SIDES, place, kept=mesh.kept[..., None], cut=STEPS)
@@ -137,18 +135,8 @@ def write_pad_case(
             relaxation=card.relaxation,
         )
         write_files(place, files)
-        if not run:
-            write_second_try(place, scheme=request.scheme, tolerance=request.tolerance)
-        script = allrun(
-            {".": card.criteria},
-            tolerance=request.tolerance,
-            processes=request.processes,
-            dialect=dialect,
-            settles=False,
-        )
-        write_papers(place, readme=readme, allrun=script, card=card)
 
-    write_whole(directory, fill)
+    write_flow(directory, fill, card, card.criteria, dialect, readme=readme, run=run)
 
 
 def _steepest(mesh: Plane) -> float:

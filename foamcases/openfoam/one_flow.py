@@ -1,10 +1,15 @@
-"""Run a case of one flow: check its mesh, iterate its flow, and verify its fields."""
+"""Write a case of one flow, and run it: check its mesh, iterate its flow, and verify its fields."""
 
 import time
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import Field, dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Any, ClassVar, Protocol
 
+from roughfilm.foamcases.openfoam.allrun import allrun
+from roughfilm.foamcases.openfoam.case_directory import write_papers, write_whole, written_for
+from roughfilm.foamcases.openfoam.dialect import Dialect
+from roughfilm.foamcases.openfoam.dictionaries import write_second_try
 from roughfilm.foamcases.openfoam.iterate import Asked, Settled, Try
 from roughfilm.foamcases.openfoam.kept import release_of, wall_time
 from roughfilm.foamcases.openfoam.program import Ended
@@ -24,7 +29,9 @@ from roughfilm.rom.ladder.result import Numerics, SolverRun
 
 
 class Written(Asked, Protocol):
-    """The options with which a case was written."""
+    """The options with which a case was written, a dataclass."""
+
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
 
     @property
     def dialect(self) -> str: ...  # noqa: D102
@@ -48,6 +55,46 @@ class Run(CaseRun):
 
     residual: float
     tries: tuple[Try, ...]
+
+
+def write_flow(
+    directory: Path,
+    fill: Callable[[Path], None],
+    card: Written,
+    judged: Judged,
+    dialect: Dialect,
+    *,
+    readme: str,
+    run: bool,
+    settles: bool = False,
+) -> None:
+    """Write a case completely or not at all, with a README and a script to run it by hand.
+
+    Parameters
+    ----------
+    directory : the directory of the case, which is made; it may exist if it is empty.
+    fill : fill(place), which writes mesh and dictionaries into a temporary directory.
+    card : the options of the case.
+    judged : the criteria of convergence.
+    dialect : the dialect of OpenFOAM in which the case is written.
+    readme : the README, to which the releases of OpenFOAM for which it is written are added.
+    run : whether the case is to be run by this library at once, which needs no dictionaries of a second try.
+    settles : whether a run may end when its mean velocity no longer changes.
+
+    Raises
+    ------
+    InputError
+        If the path contains a blank, the directory is not empty, or it cannot be written.
+    """
+    script = allrun({".": judged}, tolerance=card.tolerance, processes=card.processes, dialect=dialect, settles=settles)
+
+    def whole(place: Path) -> None:
+        fill(place)
+        if not run:
+            write_second_try(place, scheme=card.scheme, tolerance=card.tolerance)
+        write_papers(place, readme=readme + written_for(dialect), allrun=script, card=card)
+
+    write_whole(directory, whole)
 
 
 def run_flow(directory: Path, card: Written, judged: Judged, progress: Progress, settled: Settled | None = None) -> Run:

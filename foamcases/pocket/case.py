@@ -4,11 +4,10 @@ from pathlib import Path
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.foamcases.conformal.orthogonal import orthogonal
-from roughfilm.foamcases.openfoam.allrun import allrun
 from roughfilm.foamcases.openfoam.block_mesh import in_space, write_block
-from roughfilm.foamcases.openfoam.case_directory import write_papers, write_whole, written_for
 from roughfilm.foamcases.openfoam.dialect import Dialect
-from roughfilm.foamcases.openfoam.dictionaries import SIDES, write_dictionaries, write_second_try
+from roughfilm.foamcases.openfoam.dictionaries import SIDES, write_dictionaries
+from roughfilm.foamcases.openfoam.one_flow import write_flow
 from roughfilm.foamcases.openfoam.residuals import Judged
 from roughfilm.foamcases.pocket.card import Card, layers_of
 from roughfilm.rom.ladder.request import CheckedRequest
@@ -62,20 +61,18 @@ def write_case(
     InputError
         If the directory is not empty or cannot be written, or cells of the mesh fold.
     """
-    resolution, scheme, processes = request.resolution, request.scheme, request.processes
-    vertices = vertices_of(scene, resolution)
+    vertices = vertices_of(scene, request.resolution)
     card = Card(
         columns=vertices.shape[0] - 1,
         layers=vertices.shape[1] - 1,
         reynolds_number=reynolds_number,
-        resolution=resolution,
+        resolution=request.resolution,
         tolerance=request.tolerance,
-        scheme=scheme,
-        processes=processes,
+        scheme=request.scheme,
+        processes=request.processes,
         dialect=dialect.name,
     )
     readme = README.format(pressure=scene.pressure_unit * reynolds_number, speed=scene.speed, film=scene.geometry.film)
-    readme += written_for(dialect)
 
     def fill(place: Path) -> None:
         write_block(vertices, SIDES, place)
@@ -84,15 +81,9 @@ def write_case(
             dialect=dialect,
             viscosity=1 / reynolds_number,
             tolerance=request.tolerance,
-            scheme=scheme,
-            parts=(processes, 1),
+            scheme=request.scheme,
+            parts=(request.processes, 1),
             relaxation=card.relaxation,
         )
-        if not run:
-            write_second_try(place, scheme=scheme, tolerance=request.tolerance)
-        script = allrun(
-            {".": Judged()}, tolerance=request.tolerance, processes=processes, dialect=dialect, settles=False
-        )
-        write_papers(place, readme=readme, allrun=script, card=card)
 
-    write_whole(directory, fill)
+    write_flow(directory, fill, card, Judged(), dialect, readme=readme, run=run)

@@ -5,12 +5,11 @@ from pathlib import Path
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.foamcases.openfoam.allrun import allrun
 from roughfilm.foamcases.openfoam.block_mesh import Patch, write_block
-from roughfilm.foamcases.openfoam.case_directory import write_papers, write_whole, written_for
 from roughfilm.foamcases.openfoam.dialect import Dialect
-from roughfilm.foamcases.openfoam.dictionaries import parts_of, write_dictionaries, write_second_try
+from roughfilm.foamcases.openfoam.dictionaries import parts_of, write_dictionaries
 from roughfilm.foamcases.openfoam.memory import check_memory
+from roughfilm.foamcases.openfoam.one_flow import write_flow
 from roughfilm.foamcases.openfoam.residuals import FIELDS
 from roughfilm.foamcases.openfoam.settling import functions
 from roughfilm.foamcases.pocket.card import Card, layers_of
@@ -130,15 +129,5 @@ def write_case(
             sides=patches,
             functions=functions(dialect) if card.settles else None,
         )
-        if not run:
-            write_second_try(place, scheme=request.scheme, tolerance=request.tolerance)
-        script = allrun(
-            {".": card.criteria},
-            tolerance=request.tolerance,
-            processes=request.processes,
-            dialect=dialect,
-            settles=card.settles,
-        )
-        write_papers(place, readme=readme + written_for(dialect), allrun=script, card=card)
 
-    write_whole(directory, fill)
+    write_flow(directory, fill, card, card.criteria, dialect, readme=readme, run=run, settles=card.settles)
