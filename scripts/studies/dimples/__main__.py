@@ -9,15 +9,18 @@ from typing import Annotated, Any
 
 import numpy as np
 import typer
+from numpy.typing import NDArray
 from rich.table import Table
 
-from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.studies.sweep import read_sweep
 from roughfilm.rom.studies.table import read_table
 from roughfilm.terminal.console import AsJson, in_one_line, run_alone
 from scripts.studies.dimples import figures
 from scripts.studies.dimples.data import FAMILIES, MIN_LOAD, REFERENCE, Dimples, dimples_of
 from scripts.studies.study import Out, publish
+
+SHALLOW = 1.0
+"""Depth over film thickness below which a dimple is shallow."""
 
 
 @in_one_line
@@ -28,18 +31,18 @@ def command(
 ) -> None:
     """Compare the dimples that each model finds best, and the errors of the loads."""
     dimples = dimples_of(read_sweep(read_table(directory / "table.h5"), "pocket"))
-    if REFERENCE not in dimples.settings:
-        raise InputError(f"{directory}: lacks results of {REFERENCE}; run dimples.toml there with OpenFOAM")
     choices = {
-        number: [
-            (family, model, choice)
-            for family in FAMILIES
-            for model in dimples.settings
-            if (choice := dimples.choice(family, number, model)) is not None
-        ]
+        number: {
+            family: {model: dimples.choice(family, number, model) for model in dimples.settings} for family in FAMILIES
+        }
         for number in dimples.numbers
     }
-    rows = [row for model in dimples.settings if model != REFERENCE and (row := error_row(dimples, model))]
+    rows = [
+        row
+        for title, cases in parts(dimples).items()
+        for model in dimples.settings
+        if model != REFERENCE and (row := error_row(dimples, model, title, cases))
+    ]
     publish(
         Path(__file__).parent,
         out,
@@ -52,19 +55,29 @@ def command(
         as_json=as_json,
         choices=choices,
         errors=rows,
+        models=list(dimples.settings),
+        reference=REFERENCE,
         cases=len(dimples.sweep.names),
         min_load=MIN_LOAD,
+        mesh=float(np.nanmedian(np.abs(dimples.change_of_mesh() / dimples.load(REFERENCE)))),
     )
 
 
-def error_row(dimples: Dimples, model: str) -> dict[str, Any] | None:
-    """The errors of the load by a model, with its CPU time; None without a case to judge."""
-    errors = dimples.errors(model)
+def parts(dimples: Dimples) -> dict[str, NDArray[np.bool_]]:
+    """The cases of shallow and of deep dimples, as masks by title."""
+    shallow = np.asarray(dimples.sweep.given["depth_plus"] < SHALLOW)
+    return {f"depth below {SHALLOW:g} film thickness": shallow, f"depth from {SHALLOW:g} film thickness": ~shallow}
+
+
+def error_row(dimples: Dimples, model: str, title: str, cases: NDArray[np.bool_]) -> dict[str, Any] | None:
+    """The errors of the load by a model in some cases, with its CPU time; None without a case to judge."""
+    errors = dimples.errors(model, cases)
     if not errors.size:
         return None
     return {
+        "part": title,
         "model": model,
-        "cpu_s": float(np.nanmedian(dimples.sweep.cpu_s[dimples.settings[model]])),
+        "cpu_s": float(np.nanmedian(dimples.sweep.cpu_s[dimples.settings[model]][cases])),
         "median": float(np.median(errors)),
         "most": float(np.quantile(errors, 0.95)),
         "worst": float(errors.max()),
@@ -74,10 +87,13 @@ def error_row(dimples: Dimples, model: str) -> dict[str, Any] | None:
 
 def printed(rows: list[dict[str, Any]]) -> Table:
     """The errors as a printed table."""
-    shown = Table("model", "CPU", "load error, median", "95 %", "largest")
+    shown = Table("cells", "model", "CPU", "load error, median", "95 %", "largest")
     for row in rows:
         shown.add_row(
-            row["model"], f"{row['cpu_s']:.2g} s", *(f"{100 * row[name]:.2g} %" for name in ("median", "most", "worst"))
+            row["part"],
+            row["model"],
+            f"{row['cpu_s']:.2g} s",
+            *(f"{100 * row[name]:.2g} %" for name in ("median", "most", "worst")),
         )
     return shown
 

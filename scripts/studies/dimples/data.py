@@ -7,11 +7,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.studies.sweep import Sweep
 
 LOAD = "load_plus"
 
 REFERENCE = "navier_stokes"
+
+ORDER = 2
+"""Order in the size of the columns at which the load of the reference converges on similar meshes."""
+
+MIN_CHOICE = 1e-6
+"""Load over that of the best dimple below which a model finds no load: what remains is round-off."""
 
 MIN_LOAD = 0.05
 """Load over the largest pressure below which the load is a difference of larger numbers and errors are left out."""
@@ -27,14 +34,16 @@ class Choice:
     Attributes
     ----------
     covered, depth : the covered part of the cell and the depth over the film thickness of the best dimple.
-    stated : its load by the model, or 0 if no load of the model is above zero.
+    deepest : whether no deeper dimple was tried.
+    load : its load by the model.
     true : its load by the reference.
     lost : relative loss of load, by the reference, against the best dimple by the reference.
     """
 
     covered: float
     depth: float
-    stated: float
+    deepest: bool
+    load: float
     true: float
     lost: float
 
@@ -47,10 +56,12 @@ class Dimples:
     ----------
     sweep : the sweep.
     settings : the name of the setting of each model, the cheapest first and the reference last.
+    coarser : the name of the setting of the reference on its coarser mesh.
     """
 
     sweep: Sweep
     settings: Mapping[str, str]
+    coarser: str
 
     def family(self) -> NDArray[np.object_]:
         """The family of every case, shape (cases,)."""
@@ -70,40 +81,61 @@ class Dimples:
         return np.flatnonzero((self.family() == family) & (self.sweep.given["reynolds_number"] == number) & solved)
 
     def load(self, model: str) -> Array:
-        """The load of every case by a model, NaN where it is missing, shape (cases,)."""
-        return self.sweep.found[self.settings[model]][LOAD]
+        """The load of every case by a model, NaN where it is missing, shape (cases,); by the reference, its limit."""
+        load = self.sweep.found[self.settings[model]][LOAD]
+        return load + self.change_of_mesh() / (self._refinement() ** ORDER - 1) if model == REFERENCE else load
+
+    def change_of_mesh(self) -> Array:
+        """The change of the load by the reference from its coarser to its finest mesh, shape (cases,)."""
+        fine, coarse = (self.sweep.found[name][LOAD] for name in (self.settings[REFERENCE], self.coarser))
+        return np.asarray(fine - coarse)
+
+    def _refinement(self) -> Array:
+        fine, coarse = (self.sweep.resolution[name] for name in (self.settings[REFERENCE], self.coarser))
+        return np.asarray(fine / coarse)
 
     def choice(self, family: str, number: float, model: str) -> Choice | None:
-        """The best dimple by a model; None if it solved no case."""
+        """The best dimple by a model; None if it solved no case or finds no load."""
         cases = self.cases(family, number)
         own, true = self.load(model)[cases], self.load(REFERENCE)[cases]
-        if not np.isfinite(own).any():
+        if not (own > MIN_CHOICE * true.max()).any():
             return None
         best = int(np.nanargmax(own))
-        given = self.sweep.given
+        covered, depth = (self.sweep.given[name][cases] for name in ("covered", "depth_plus"))
         return Choice(
-            covered=float(given["covered"][cases[best]]),
-            depth=float(given["depth_plus"][cases[best]]),
-            stated=float(max(own[best], 0.0)),
+            covered=float(covered[best]),
+            depth=float(depth[best]),
+            deepest=bool(depth[best] == depth.max()),
+            load=float(own[best]),
             true=float(true[best]),
             lost=float(1 - true[best] / true.max()),
         )
 
-    def errors(self, model: str) -> Array:
-        """The relative errors of the load by a model against the reference, of the cases with a sizeable load."""
-        found = self.sweep.found[self.settings[REFERENCE]]
+    def errors(self, model: str, cases: NDArray[np.bool_]) -> Array:
+        """The relative errors of the load by a model in the cases of a mask that have a sizeable load."""
+        load, found = self.load(REFERENCE), self.sweep.found[self.settings[REFERENCE]]
         pressure = np.maximum(np.abs(found["pressure_max_plus"]), np.abs(found["pressure_min_plus"]))
-        sizeable = np.abs(found[LOAD]) > MIN_LOAD * pressure
-        relative = np.abs(self.load(model) - found[LOAD])[sizeable] / np.abs(found[LOAD][sizeable])
+        own = cases & (np.abs(load) > MIN_LOAD * pressure)
+        relative = np.abs(self.load(model)[own] / load[own] - 1)
         return np.asarray(relative[np.isfinite(relative)])
 
 
 def dimples_of(sweep: Sweep) -> Dimples:
-    """The sweep with the setting of each model on its finest grid."""
-    finest: dict[str, tuple[float, str]] = {}
+    """The sweep with the setting of each model on its finest grid.
+
+    Raises
+    ------
+    InputError
+        If the sweep has no two meshes of the reference.
+    """
+    grids: dict[str, list[tuple[float, str]]] = {}
     for name, values in sweep.resolution.items():
         if np.isfinite(values).any():
-            model = name.partition("-")[0]
-            finest[model] = max(finest.get(model, (0.0, "")), (float(np.nanmax(values)), name))
-    order = sorted(finest, key=lambda model: (model == REFERENCE, float(np.nanmedian(sweep.cpu_s[finest[model][1]]))))
-    return Dimples(sweep=sweep, settings={model: finest[model][1] for model in order})
+            grids.setdefault(name.partition("-")[0], []).append((float(np.nanmax(values)), name))
+    finest = {model: max(own)[1] for model, own in grids.items()}
+    if len(grids.get(REFERENCE, ())) < 2:
+        raise InputError(f"the batch has no two meshes of {REFERENCE}; run dimples.toml with OpenFOAM")
+    order = sorted(finest, key=lambda model: (model == REFERENCE, float(np.nanmedian(sweep.cpu_s[finest[model]]))))
+    return Dimples(
+        sweep=sweep, settings={model: finest[model] for model in order}, coarser=sorted(grids[REFERENCE])[-2][1]
+    )

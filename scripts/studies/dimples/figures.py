@@ -38,7 +38,7 @@ def loads(dimples: Dimples, number: float) -> Figure:
 
 
 def losses(dimples: Dimples) -> Figure:
-    """Draw the load that is lost by choosing the dimple by each model, for every family and Reynolds number."""
+    """Draw the load that is lost by choosing the dimple by each model, all of it if the model finds no load."""
     figure = Figure(figsize=(10, 3.6), layout="constrained")
     panels = figure.subplots(1, len(dimples.numbers), sharey=True, squeeze=False)[0]
     models = [model for model in dimples.settings if model != REFERENCE]
@@ -46,7 +46,7 @@ def losses(dimples: Dimples) -> Figure:
     for axes, number in zip(panels, dimples.numbers, strict=True):
         for shift, model in enumerate(models):
             chosen = [dimples.choice(family, number, model) for family in FAMILIES]
-            lost = [np.nan if one is None else 100 * one.lost for one in chosen]
+            lost = [100 * (1.0 if one is None else one.lost) for one in chosen]
             axes.bar(places + (shift - len(models) / 2) * 0.15, lost, 0.14, label=model)
         axes.set_xticks(places, FAMILIES, fontsize=7, rotation=20)
         axes.set_title(f"Re = {number:g}", fontsize=9)
