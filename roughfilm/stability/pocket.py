@@ -206,7 +206,9 @@ DIMPLES = replace(
     f"cell, the other models at their default resolution. Above Re = {TURBULENT:g} shear flow turns turbulent, and "
     "every model takes it as laminar.",
     resolution=32,
-    solve=Places(entries=DIMPLE).solve,
+    solve=Places(
+        entries=DIMPLE, reynolds_numbers=(40.0, 160.0, 500.0, 2000.0), depths_plus=(0.25, 0.75, 1.25, 2.0)
+    ).solve,
 )
 
 PADS = replace(

@@ -215,14 +215,13 @@ def test_upwind_is_of_first_order_and_carries_too_much_load(make_scene):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("model", [STOKES, NAVIER_STOKES])
-def test_several_processes_find_what_one_finds(make_scene, model):
+def test_several_processes_find_what_one_finds(make_scene):
     scene = make_scene(0.3, 0.75, 160)
-    alone, together = (model.solve(scene, Request(resolution=60, processes=n)) for n in (1, 3))
+    alone, together = (NAVIER_STOKES.solve(scene, Request(resolution=60, processes=n)) for n in (1, 2))
     assert plus(together) == pytest.approx(plus(alone), rel=1e-6, abs=1e-6)
     shape = alone.fields["cell_velocity"].values.shape
     assert together.fields["cell_velocity"].values.shape == shape
     difference = together.fields["cell_velocity"].values - alone.fields["cell_velocity"].values
     assert np.abs(difference).max() < 1e-6 * scene.speed
-    assert together.numerics.processes == 3
+    assert together.numerics.processes == 2
     assert together.numerics.cpu_s > 0
