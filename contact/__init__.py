@@ -1,4 +1,4 @@
 """Dry surfaces in contact, and the ground the other packages stand on: errors and whole files.
 
-This is the lowest package: it knows no fluid and no scene, and imports neither ``rom`` nor ``foamcases``.
+This is the lowest package: it has no fluid and no scene, and imports neither ``rom`` nor ``foamcases``.
 """

@@ -67,8 +67,8 @@ def _groove(draw, film, room, middle):
         rows = [(0.0, 0.0), *inner, (1.0, 0.0)]
         return common | {"points": [[(place - 0.5) * width, deep * depth] for place, deep in rows]}
     depth = min(depth, width / 2)
-    told = common | {"width": f"{width!r} m", "depth": f"{depth!r} m"}
-    return told | ({"shift": f"{width * draw(part(-0.45, 0.45))!r} m"} if profile == "splined" else {})
+    entries = common | {"width": f"{width!r} m", "depth": f"{depth!r} m"}
+    return entries | ({"shift": f"{width * draw(part(-0.45, 0.45))!r} m"} if profile == "splined" else {})
 
 
 def mirrored(entries):
@@ -93,7 +93,7 @@ def surfaces(draw, size=None, files=True):
     steps = [side / count for side, count in zip(size, points, strict=True)]
     rms = min(size) * draw(number(1e-4, 0.03))
     seed = draw(st.integers(2, 10**6))
-    told = {"size": [f"{side!r} m" for side in size], "points": list(points)}
+    entries = {"size": [f"{side!r} m" for side in size], "points": list(points)}
     kinds = ["self_affine", "gaussian", "sinusoid", "milled", "plateau_honed"] + ["file"] * files
     kind = draw(st.sampled_from(kinds))
     if kind == "file":
@@ -106,10 +106,10 @@ def surfaces(draw, size=None, files=True):
         for axis, key in enumerate(("wavelength_x", "wavelength_y")):
             if axis == 0 or draw(st.booleans()):
                 wave[key] = f"{size[axis] / draw(st.integers(1, max(1, points[axis] // 4)))!r} m"
-        told |= wave
+        entries |= wave
     elif kind == "self_affine":
         cut_off = 2.01 * max(steps) * draw(part(1.0, 1.5))
-        told |= {
+        entries |= {
             "seed": seed,
             "hurst": draw(part(0.1, 1.0)),
             "roll_off": f"{max(cut_off * 1.01, min(size) * draw(part(0.3, 1.0)))!r} m",
@@ -117,7 +117,7 @@ def surfaces(draw, size=None, files=True):
             "rms_height": f"{rms!r} m",
         }
     elif kind == "gaussian":
-        told |= {
+        entries |= {
             "seed": seed,
             "rms_height": f"{rms!r} m",
             "correlation_length": f"{2.01 * max(steps) * draw(part(1.0, 1.5))!r} m",
@@ -125,10 +125,11 @@ def surfaces(draw, size=None, files=True):
             "lay_angle": f"{draw(part(0, 180))!r} deg",
         }
     elif kind == "milled":
-        told |= {"radius": f"{size[0] * draw(part(1.0, 5.0))!r} m", "feed": f"{size[0] / draw(st.integers(1, 3))!r} m"}
-        told |= {"depth": f"{3 * rms!r} m"}
+        entries |= {"radius": f"{size[0] * draw(part(1.0, 5.0))!r} m"}
+        entries |= {"feed": f"{size[0] / draw(st.integers(1, 3))!r} m"}
+        entries |= {"depth": f"{3 * rms!r} m"}
     else:
-        told |= {
+        entries |= {
             "seed": seed,
             "plateau_rms_height": f"{rms / 3!r} m",
             "plateau_correlation_length": f"{2.2 * max(steps)!r} m",
@@ -136,7 +137,7 @@ def surfaces(draw, size=None, files=True):
             "valley_correlation_length": f"{2.5 * max(steps)!r} m",
             "material_ratio": draw(part(0.3, 0.95)),
         }
-    return {"surface": {"kind": kind, **told}}, rms
+    return {"surface": {"kind": kind, **entries}}, rms
 
 
 def _heights(draw, points, seed):
@@ -311,18 +312,18 @@ def _sector(draw, length, film, rise):
 
 def _washer(draw, length, film, rise):
     inner, outer = length * 0.5, length * draw(part(0.6, 1.5))
-    told = {**_metres(inner_radius=inner, outer_radius=outer, film=film), "pockets": draw(st.integers(1, 12))}
+    entries = {**_metres(inner_radius=inner, outer_radius=outer, film=film), "pockets": draw(st.integers(1, 12))}
     if draw(st.booleans()):
         start = draw(part(0.0, 0.5))
         pocket = {**_metres(depth=rise, extent=(outer - inner) * draw(part(0.1, 1.0)))}
-        told["pocket"] = pocket | {"start": start, "share": draw(part(0.05, round(1 - start, 3)))}
-    return told
+        entries["pocket"] = pocket | {"start": start, "share": draw(part(0.05, round(1 - start, 3)))}
+    return entries
 
 
 def _wavy(draw, length, film, _rise):
     part_ = draw(part(0.05, 0.9))
-    told = _metres(length=length, film=film, amplitude=film * part_, wavelength=length * draw(number(0.1, 1)))
-    return told | (_metres(extent=length * draw(part(0.1, 1.0))) if draw(st.booleans()) else {})
+    entries = _metres(length=length, film=film, amplitude=film * part_, wavelength=length * draw(number(0.1, 1)))
+    return entries | (_metres(extent=length * draw(part(0.1, 1.0))) if draw(st.booleans()) else {})
 
 
 def _given(draw, length, film, rise):
@@ -353,35 +354,35 @@ def _texture(draw, length, film, width):
     columns = draw(st.integers(1, 4))
     pitch = length / columns
     long = pitch * draw(part(0.1, 0.95))
-    told = _metres(length=long, depth=min(film * draw(number(0.01, 10)), long), start=0.0, pitch=pitch)
-    told |= {"columns": columns, "profile": draw(st.sampled_from(["box", "cylindrical"]))}
+    entries = _metres(length=long, depth=min(film * draw(number(0.01, 10)), long), start=0.0, pitch=pitch)
+    entries |= {"columns": columns, "profile": draw(st.sampled_from(["box", "cylindrical"]))}
     if width is not None and draw(st.booleans()):
         rows = draw(st.integers(1, 3))
-        told |= _metres(width=width / rows * draw(part(0.1, 0.95)), pitch_across=width / rows) | {"rows": rows}
-        told["profile"] = draw(st.sampled_from(["box", "cylindrical", "ellipsoidal"]))
-    return told
+        entries |= _metres(width=width / rows * draw(part(0.1, 0.95)), pitch_across=width / rows) | {"rows": rows}
+        entries["profile"] = draw(st.sampled_from(["box", "cylindrical", "ellipsoidal"]))
+    return entries
 
 
 def _lubricant(draw):
-    told = {"viscosity": draw(text(number(1e-3, 0.5), "Pa*s"))}
-    told["cavitation_pressure"] = f"{draw(st.sampled_from([0.0, -1e5, -2e4]))!r} Pa"
+    entries = {"viscosity": draw(text(number(1e-3, 0.5), "Pa*s"))}
+    entries["cavitation_pressure"] = f"{draw(st.sampled_from([0.0, -1e5, -2e4]))!r} Pa"
     beta = draw(number(1e7, 1e11))
     law = draw(st.sampled_from(["incompressible", "constant_bulk_modulus", "dowson_higginson", "tabulated"]))
-    told["compressibility"] = {"law": law}
+    entries["compressibility"] = {"law": law}
     if law == "constant_bulk_modulus":
-        told["compressibility"] |= {"bulk_modulus": f"{beta!r} Pa"}
+        entries["compressibility"] |= {"bulk_modulus": f"{beta!r} Pa"}
     if law == "dowson_higginson" and draw(st.booleans()):
-        told["compressibility"] |= {"c1": f"{beta!r} Pa", "c2": draw(part(1.05, 2.0))}
+        entries["compressibility"] |= {"c1": f"{beta!r} Pa", "c2": draw(part(1.05, 2.0))}
     if law == "tabulated":
         table = [[place * beta / 10, 1000 * (1 + 0.3 * place / (3 + place))] for place in (0.0, 1.0, 3.0, 10.0)]
-        told["compressibility"] |= {"table": table} | ({"fit": "dowson_higginson"} if draw(st.booleans()) else {})
+        entries["compressibility"] |= {"table": table} | ({"fit": "dowson_higginson"} if draw(st.booleans()) else {})
     viscous = draw(st.sampled_from(["constant", "constant", "barus", "roelands"]))
-    told["piezoviscosity"] = {"law": viscous}
+    entries["piezoviscosity"] = {"law": viscous}
     if viscous == "barus":
-        told["piezoviscosity"] |= {"pressure_coefficient": f"{draw(number(1e-10, 1e-7))!r} Pa^-1"}
+        entries["piezoviscosity"] |= {"pressure_coefficient": f"{draw(number(1e-10, 1e-7))!r} Pa^-1"}
     if viscous == "roelands":
-        told["piezoviscosity"] |= {"index": draw(part(0.1, 1.0))}
-    return told
+        entries["piezoviscosity"] |= {"index": draw(part(0.1, 1.0))}
+    return entries
 
 
 def _boundary(wide):
@@ -392,7 +393,7 @@ def _boundary(wide):
         | st.fixed_dictionaries({"theta": part(1.0, 1.01)})
         | st.fixed_dictionaries({"pressure": pressure})
     )
-    told = {"inlet": inlet, "outlet": st.just({}) | st.fixed_dictionaries({"pressure": pressure})}
+    entries = {"inlet": inlet, "outlet": st.just({}) | st.fixed_dictionaries({"pressure": pressure})}
     if not wide:
-        told["sides"] = st.just({}) | st.fixed_dictionaries({"low": pressure, "high": pressure})
-    return st.fixed_dictionaries(told)
+        entries["sides"] = st.just({}) | st.fixed_dictionaries({"low": pressure, "high": pressure})
+    return st.fixed_dictionaries(entries)

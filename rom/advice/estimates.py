@@ -120,7 +120,7 @@ class AdviceTask:
         if self.at_full_resolution(model, resolution):
             return 0.0
         law, numbers = self.grid_law(model), on_grid(self.numbers, resolution)
-        return law.error(numbers, RESOLVING) if law is not None and law.knows(numbers) else None
+        return law.error(numbers, RESOLVING) if law is not None and law.has_numbers(numbers) else None
 
     def at_full_resolution(self, model: Model, resolution: int) -> bool:
         """Whether a model without an order of convergence for the scene has its finest resolution.
@@ -136,7 +136,7 @@ class AdviceTask:
     def beyond_grids(self, model: Model, resolution: int) -> str | None:
         """The name of a number outside the range of the law over resolutions of a model; None if there is none."""
         law, numbers = self.grid_law(model), on_grid(self.numbers, resolution)
-        return law.beyond(numbers, RESOLVING) if law is not None and law.knows(numbers) else None
+        return law.beyond(numbers, RESOLVING) if law is not None and law.has_numbers(numbers) else None
 
     def resolutions(self, model: Model) -> tuple[int, ...]:
         """The resolutions at which a model is considered, from coarse to fine: those whose error has a law.
@@ -255,7 +255,7 @@ def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], lis
         law = promise.laws.get(task.quantity)
         step = task.step(model)
         own = on_grid(task.numbers, model.resolution_of(task.scene))
-        if law is not None and law.knows(own):
+        if law is not None and law.has_numbers(own):
             error, beyond = law.error(own, RESOLVING), law.beyond(own, RESOLVING)
             names = [one.name for one in chain]
             contained = names.index(promise.towards) if promise.towards in names else len(chain)
@@ -266,9 +266,9 @@ def left_out(task: AdviceTask, chain: Sequence[Model]) -> tuple[list[float], lis
         if step is None:
             break
         law = step.left_out.get(task.quantity)
-        if law is None or not law.knows(task.numbers):
+        if law is None or not law.has_numbers(task.numbers):
             return None
-        error, beyond = law.error(task.numbers, (step.tells,)), law.beyond(task.numbers, (step.tells,))
+        error, beyond = law.error(task.numbers, (step.measure,)), law.beyond(task.numbers, (step.measure,))
         parts.append(error)
         sure = sure and beyond is None
         reasons.append((error, _reason(task, step) + _range_note(task, beyond, law)))
@@ -282,8 +282,8 @@ def _promise_reason(task: AdviceTask, chain: Sequence[Model]) -> str:
 
 
 def _reason(task: AdviceTask, step: Step) -> str:
-    value = task.numbers.get(step.tells)
-    number = "" if value is None else f", {task.kind.symbols[step.tells]} = {value:.2g}"
+    value = task.numbers.get(step.measure)
+    number = "" if value is None else f", {task.kind.symbols[step.measure]} = {value:.2g}"
     return f"leaves out {step.adds}{number}"
 
 

@@ -62,7 +62,7 @@ class Law:
         """The names of the numbers in the terms."""
         return tuple(dict.fromkeys(name for term in self.terms for name in term.powers))
 
-    def knows(self, numbers: Numbers) -> bool:
+    def has_numbers(self, numbers: Numbers) -> bool:
         """Whether a scene has all numbers of the law."""
         return set(self.names) <= numbers.keys()
 
@@ -123,7 +123,7 @@ class Step:
     ----------
     kind, model, towards : the kind of scene, the model and the next one.
     adds : the effect that the next one adds, in words.
-    tells : the number that measures the effect.
+    measure : the number that measures the effect.
     left_out : by quantity, the law of the difference from the next model.
     """
 
@@ -131,7 +131,7 @@ class Step:
     model: str
     towards: str
     adds: str
-    tells: str
+    measure: str
     left_out: Mapping[str, Law] = field(default_factory=dict)
 
 

@@ -30,6 +30,7 @@ from roughfilm.rom.bearing.warnings import (
 )
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio
 from roughfilm.rom.cavitation.evaluation.grids import grid_sequence, grid_warnings
+from roughfilm.rom.cavitation.evaluation.numerics import numerics_of
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Level, Solution, load_loops
 from roughfilm.rom.cavitation.solve import solve as balance
@@ -37,7 +38,7 @@ from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
-from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, Numerics, Result, SolverRun, with_uncertainties
+from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, Result, with_uncertainties
 
 FilmsOnGrid = Callable[[Bearing, int], SeparableBearing[Any]]
 """films(scene, cells), the films of a model on a grid of so many cells along and across."""
@@ -109,18 +110,12 @@ def solve(
         model=solver.name,
         quantities=in_order(scene, whole_bearing(found.scene, with_uncertainties(quantities, uncertainty))),
         fields=_fields(scene, solution, outputs.fields(found.scene, solution)),
-        numerics=Numerics(
-            residual=solution.residual,
-            iterations=sum(level.iterations for level in found.solved),
+        numerics=numerics_of(
+            solution,
+            found.solved,
+            request,
             cpu_s=working_time() - cpu,
             wall_s=time.perf_counter() - wall,
-            degrees_of_freedom=solution.state.pressure.size,
-            resolution=cells,
-            tolerance=request.tolerance,
-            scheme=request.scheme,
-            runs=tuple(
-                SolverRun(name=" x ".join(map(str, level.shape)), iterations=level.iterations) for level in found.solved
-            ),
             details={} if found.balance is None else {"balance": found.balance, "films": float(found.films)},
         ),
         provenance=provenance(

@@ -1,7 +1,7 @@
 """Pages of examples that take long: kept with their output, so that a build of the manual does not run them.
 
 A kept page holds the digest of its program. Sphinx-Gallery takes the page as it is while the digest is right, and
-otherwise shows the program without output, of which :func:`outdated` tells the build.
+otherwise shows the program without output, of which :func:`outdated` reports to the build.
 """
 
 import hashlib

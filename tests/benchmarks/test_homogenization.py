@@ -128,13 +128,13 @@ def solved(tmp_path_factory):
             command = [python(solver), PROGRAM, solver, written(points, cut_off), asked, result]
             subprocess.run(command, env=os.environ | {"PYTHONPATH": str(ROOT)} | one_thread(), check=True)
             rows[key] = {"load_average": os.getloadavg()[0], **json.loads(result.read_text())}
-            note({"cases": [told(rows, *key) for key in rows]})
+            note({"cases": [stated(rows, *key) for key in rows]})
         return rows[key]
 
     return solve
 
 
-def told(rows, points, cut_off, solver, error):
+def stated(rows, points, cut_off, solver, error):
     """A row with what it is, and its time over ours."""
     row, ours = rows[points, cut_off, solver, error], rows.get((points, cut_off, DEFAULT, error))
     case = {"points": points, "points_per_wave": round(cut_off * points / SIDE), "contact": CONTACT, "solver": solver}

@@ -59,19 +59,19 @@ def found(tmp_path_factory):
     inputs = Inputs(heights=surface.heights, spacing=surface.spacing, settings={"benchmark": "leakage"})
     press = Press(surface.heights, surface.spacing, MODULUS)
     body = setup(surface, press, inputs, tmp_path_factory.mktemp("seal"))
-    told, whole = {}, times()
+    stated, whole = {}, times()
     before = times()
     thresholds = sealing(body, lambda *_: None)
-    told["thresholds"] = taken(before)
+    stated["thresholds"] = taken(before)
     before = times()
     loads = chosen_loads(body, thresholds)
-    told["choosing loads"] = taken(before)
+    stated["choosing loads"] = taken(before)
     before = times()
     rows, _ = solved(body, loads, THREADS, lambda *_: None)
-    told["contacts and flow"] = taken(before)
-    told["whole"] = taken(whole)
-    told["flow alone, cpu_s"] = sum(row.cpu_s for row in rows.values())
-    keep("series", {"points": POINTS, "loads": len(rows), "threads": THREADS, "times": told})
+    stated["contacts and flow"] = taken(before)
+    stated["whole"] = taken(whole)
+    stated["flow alone, cpu_s"] = sum(row.cpu_s for row in rows.values())
+    keep("series", {"points": POINTS, "loads": len(rows), "threads": THREADS, "times": stated})
     return body, rows, thresholds
 
 
@@ -103,11 +103,11 @@ def test_flow_beside_elimination(found, part):
     body, rows, _ = found
     opened = [load for load, row in rows.items() if not row.direct_x_sealed]
     contact = load_contact(body.contacts, opened[int(part * (len(opened) - 1))])
-    told = {}
+    stated = {}
     for name, how in (("multigrid", {}), ("elimination", {"solvers": ["elimination"]})):
         before = times()
         passage = direct_flow(contact.gap, contact.spacing, 0, tolerance=AGREED / 10, **how)
-        told[name] = {"permeability_m3": passage.permeability, **taken(before)}
-    assert told["multigrid"]["permeability_m3"] == pytest.approx(told["elimination"]["permeability_m3"], rel=AGREED)
-    ratio = told["elimination"]["cpu_s"] / told["multigrid"]["cpu_s"]
-    keep(f"flow at {100 * contact.area_fraction:.0f} % of contact", told | {"elimination over multigrid": ratio})
+        stated[name] = {"permeability_m3": passage.permeability, **taken(before)}
+    assert stated["multigrid"]["permeability_m3"] == pytest.approx(stated["elimination"]["permeability_m3"], rel=AGREED)
+    ratio = stated["elimination"]["cpu_s"] / stated["multigrid"]["cpu_s"]
+    keep(f"flow at {100 * contact.area_fraction:.0f} % of contact", stated | {"elimination over multigrid": ratio})

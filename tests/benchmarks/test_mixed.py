@@ -44,8 +44,8 @@ def note(entries):
     """Write some entries of the results, and keep the others of this run."""
     KEPT.update(entries)
     with replacing(RESULTS, JSON) as scratch:
-        told = {**circumstances(), "load_average": os.getloadavg()[0], **KEPT}
-        scratch.write_text(json.dumps(told, indent=1))
+        stated = {**circumstances(), "load_average": os.getloadavg()[0], **KEPT}
+        scratch.write_text(json.dumps(stated, indent=1))
 
 
 def total(steps):
@@ -65,7 +65,7 @@ def test_a_measured_surface_becomes_curves(measured_file, tmp_path, name, points
     }
     wall = ("--set", "roughness.kind=surface", "--set", f"roughness.surface={cell}")
     steps["stribeck"] = command("stribeck", SCENE, *wall, "--table", table, "--out", tmp_path / "curves")
-    told = json.loads((tmp_path / "curves" / "stribeck.json").read_text())
+    stated = json.loads((tmp_path / "curves" / "stribeck.json").read_text())
     factors = json.loads(
         subprocess.run(
             [sys.executable, "-m", "roughfilm.cli.main", "factors", contacts, "--out", table, "--json"],
@@ -81,10 +81,10 @@ def test_a_measured_surface_becomes_curves(measured_file, tmp_path, name, points
         "table": {"asked_wall_s": TABLE_S, **total([steps[step] for step in ("surface", "contact", "factors")])},
         "curves": {"asked_wall_s": CURVES_S, **steps["stribeck"]},
         "points_of_table": factors["numerics"]["separations"],
-        "points_of_curves": told["numerics"]["points"],
-        "lift_off_m_s": [curve["lift_off"] for curve in told["curves"]],
+        "points_of_curves": stated["numerics"]["points"],
+        "lift_off_m_s": [curve["lift_off"] for curve in stated["curves"]],
     }
     note({re.sub(r"\W+", "_", f"{name} {points}"): row})
     assert factors["numerics"]["separations"] >= 25
-    assert told["numerics"]["points"] == 180
-    assert told["numerics"]["balance"] < 1e-5
+    assert stated["numerics"]["points"] == 180
+    assert stated["numerics"]["balance"] < 1e-5

@@ -118,17 +118,17 @@ def by_snapping(scene, folder):
 def test_both_meshes_of_one_gap_agree(amplitude, length, smallest_gap, tmp_path):
     scene = bumps(amplitude, length, smallest_gap, tmp_path)
     walls = scene.walls(256)
-    told = {"amplitude": amplitude, "length": length, "contact": float((walls.gap == 0).mean())}
+    stated = {"amplitude": amplitude, "length": length, "contact": float((walls.gap == 0).mean())}
     for route in (by_columns, by_snapping):
         values, cpu_s = route(scene, tmp_path)
         limit = values[-1] + (values[-1] - values[-2]) / 3
-        told[route.__name__] = {"values": values, "cpu_s": cpu_s, "extrapolated": limit}
-    columns, snapped = (told[name]["extrapolated"] for name in ("by_columns", "by_snapping"))
-    if not told["contact"]:
-        told["exact"] = float(ritz_flow(scene.walls(32)).relative.pressure[0, 0])
+        stated[route.__name__] = {"values": values, "cpu_s": cpu_s, "extrapolated": limit}
+    columns, snapped = (stated[name]["extrapolated"] for name in ("by_columns", "by_snapping"))
+    if not stated["contact"]:
+        stated["exact"] = float(ritz_flow(scene.walls(32)).relative.pressure[0, 0])
     path = RESULTS.with_name(f"rough_gap_meshes_{amplitude}.json")
     path.parent.mkdir(parents=True, exist_ok=True)
     with replacing(path, JSON) as scratch:
-        scratch.write_text(json.dumps({**circumstances(), **told}, indent=1) + "\n", encoding="utf-8")
+        scratch.write_text(json.dumps({**circumstances(), **stated}, indent=1) + "\n", encoding="utf-8")
     assert snapped == pytest.approx(columns, rel=ROUTES_AGREE)
-    assert columns == pytest.approx(told.get("exact", columns), rel=ROUTES_AGREE)
+    assert columns == pytest.approx(stated.get("exact", columns), rel=ROUTES_AGREE)

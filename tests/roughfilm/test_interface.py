@@ -558,8 +558,8 @@ def test_the_cases_of_a_study_are_written_each_into_its_directory(tmp_path):
 def test_a_study_is_solved_once_and_its_inertia_reported(tmp_path):
     written = []
     for _ in range(2):
-        told = program("run_batch.py", STUDIES / "pocket.toml", "--out", tmp_path / "out", "--jobs", "1", cwd=tmp_path)
-        assert told.splitlines()[-1] == "inertial_reynolds: 12 of 12 cases solved"
+        lines = program("run_batch.py", STUDIES / "pocket.toml", "--out", tmp_path / "out", "--jobs", "1", cwd=tmp_path)
+        assert lines.splitlines()[-1] == "inertial_reynolds: 12 of 12 cases solved"
         written.append({path: path.stat().st_mtime_ns for path in (tmp_path / "out").glob("cases/*/*.h5")})
     assert len(written[0]) == 24
     assert written[0] == written[1]

@@ -16,7 +16,7 @@ def test_a_model_is_found_by_its_kind_and_name(model):
     assert model in models(model.kind)
 
 
-def test_models_of_one_name_are_told_apart_by_their_kind():
+def test_models_of_one_name_are_stated_apart_by_their_kind():
     assert {find(kind, "stokes").kind for kind in ("pocket", "rough_gap")} == {"pocket", "rough_gap"}
 
 

@@ -120,7 +120,7 @@ def _inertia(scene: Pocket, found: _Films | None, quantity: str) -> Omission:
     if found is None:
         laws = table().promise(kind_of_scene(scene).name_of_laws, REYNOLDS.name).laws
         law, own = laws.get(quantity), numbers(scene)
-        if law is not None and law.knows(own) and law.beyond(own) is None:
+        if law is not None and law.has_numbers(own) and law.beyond(own) is None:
             part = law.error(own)
     elif found.inertia is not None and quantity in INERTIA_FACTORS:
         change = INERTIA_FACTORS[quantity] * max(found.changed(name)[1] for name in PRESSURES)

@@ -6,12 +6,13 @@ from roughfilm.contact.foundation.rounding import share
 from roughfilm.contact.foundation.timing import one_time, working_time
 from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty, grid_warnings
+from roughfilm.rom.cavitation.evaluation.numerics import numerics_of
 from roughfilm.rom.cavitation.solve import Solution, load_loops
 from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
-from roughfilm.rom.ladder.result import NO_COARSER_GRID, Numerics, Result, SolverRun, with_uncertainties
+from roughfilm.rom.ladder.result import NO_COARSER_GRID, Result, with_uncertainties
 from roughfilm.rom.pocket.cavitating.cells import cell_fields, cell_film, cell_quantities
 from roughfilm.rom.pocket.cavitating.grooves import groove_fields, groove_problem, groove_quantities
 from roughfilm.rom.pocket.plan.grid import columns_across, require_resolved
@@ -60,19 +61,8 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         model=solver.name,
         quantities=with_uncertainties(levels[0], uncertainty),
         fields=fields(scene, solution),
-        numerics=Numerics(
-            residual=solution.residual,
-            iterations=sum(level.iterations for level in solution.levels),
-            cpu_s=working_time() - cpu,
-            wall_s=time.perf_counter() - wall,
-            degrees_of_freedom=solution.state.pressure.size,
-            resolution=cells,
-            tolerance=request.tolerance,
-            scheme=request.scheme,
-            runs=tuple(
-                SolverRun(name=" x ".join(map(str, level.shape)), iterations=level.iterations)
-                for level in solution.levels
-            ),
+        numerics=numerics_of(
+            solution, solution.levels, request, cpu_s=working_time() - cpu, wall_s=time.perf_counter() - wall
         ),
         provenance=provenance(scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources),
         warnings=tuple(warnings),

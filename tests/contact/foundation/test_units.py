@@ -194,7 +194,7 @@ def test_units_beyond_the_table_are_those_of_pint():
     assert to_si("2 N/(m*s)", "Pa*m/s") == 2.0
 
 
-def test_a_pair_tells_a_decimal_comma_from_two_lengths():
+def test_a_pair_separates_a_decimal_comma_from_two_lengths():
     pair = TypeAdapter(LengthPair)
     assert pair.validate_python("1 um, 2.5 um") == (1e-6, 2.5e-6)
     with pytest.raises(ValueError, match=r"write '7\.5 um' or '7 um, 5 um'"):

@@ -115,7 +115,7 @@ def test_ridges_never_end():
     assert found.longest == pytest.approx(np.hypot(90, across), rel=1e-3)
 
 
-def test_an_open_piece_of_a_random_surface_tells_nearly_the_same():
+def test_an_open_piece_of_a_random_surface_states_nearly_the_same():
     whole = with_autocorrelation(lambda x, y: np.exp(-((x / 4) ** 2) - (y / 8) ** 2), (800, 800), (1.0, 1.0), 5107)
     invalid = np.random.default_rng(5108).random((400, 500)) < 0.1
     piece = Surface(heights=whole.heights[:400, :500], spacing=whole.spacing, invalid=invalid)

@@ -34,7 +34,7 @@ def test_filled_heights_stay_between_the_valid_ones():
     assert filled.heights.max() <= heights[~invalid].max() + 1e-8
 
 
-def test_one_valid_point_tells_all_heights():
+def test_one_valid_point_states_all_heights():
     invalid = np.ones(X.shape, bool)
     invalid[3, 4] = False
     filled, _ = fill_invalid(Surface(heights=np.full(X.shape, 2e-6), spacing=SPACING, invalid=invalid))

@@ -93,7 +93,7 @@ def file_of(tmp_path):
 
 
 @pytest.mark.parametrize("text", ALL.values(), ids=ALL)
-def test_a_surface_tells_the_description_it_was_made_from(text, file_of):
+def test_a_surface_states_the_description_it_was_made_from(text, file_of):
     description = read_description(file_of(text))
     surface = make(description)
     assert surface.periodic

@@ -46,7 +46,7 @@ BANNERS = {
 
 
 @pytest.mark.parametrize("banner", BANNERS)
-def test_a_banner_tells_the_release(banner):
+def test_a_banner_states_the_release(banner):
     release = release_in(f"options:\n  -case <dir>\n\n{banner}\nBuild: _26\n")
     assert (release and (release.family, release.number, release.dialect)) == BANNERS[banner]
 

@@ -87,7 +87,7 @@ def test_a_failure_says_which(make_scene, monkeypatch, model, scene, resolution,
 
 
 @pytest.mark.openfoam
-def test_what_fails_twice_tells_both_tries(make_scene):
+def test_what_fails_twice_states_both_tries(make_scene):
     with pytest.raises(
         ConvergenceError, match=r"stalled after .*; second try .*: stalled after .*; loosen the tolerance"
     ):

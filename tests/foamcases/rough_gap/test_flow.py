@@ -124,7 +124,7 @@ def test_a_turned_gap_lets_through_along_what_the_other_does_across(flow_between
     assert along[::-1] == pytest.approx(across, abs=5e-6)
 
 
-def test_a_flow_tells_how_far_from_settled_it_is(flow_between):
+def test_a_flow_states_how_far_from_settled_it_is(flow_between):
     loose, tight = (flow_between(bumps(8), 4, only="along", tolerance=t) for t in (1e-3, 1e-7))
     change = abs(loose.flows["along"].flow[0] / tight.flows["along"].flow[0] - 1)
     assert 1e-7 < change < 3 * loose.run.unsettled["along"] < 6e-3

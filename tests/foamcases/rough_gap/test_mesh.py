@@ -71,7 +71,7 @@ def test_columns_with_a_corner_in_contact_are_cut_out():
     assert sorted(zip(*np.nonzero(~kept), strict=True)) == [(0, 0), (0, 5), (5, 0), (5, 5)]
 
 
-def test_what_contact_closes_in_is_left_out_and_told():
+def test_what_contact_closes_in_is_left_out_and_named():
     columns = columns_between(between(box(12)), 1.0, 4)
     assert not columns.kept[2:7, 2:7].any()
     assert columns.kept.sum() == 144 - 49

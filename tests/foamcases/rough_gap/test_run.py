@@ -93,7 +93,7 @@ def test_memory_is_what_the_system_tells(tmp_path):
     assert memory_available(tmp_path / "none") == float("inf")
 
 
-def test_what_is_left_of_a_geometric_series_is_told_exactly():
+def test_what_is_left_of_a_geometric_series_is_exact():
     values = 3 + 0.5 * 0.8 ** np.arange(40)
     left = 0.5 * 0.8**39 / values[-1]
     assert unsettled(values) == pytest.approx(left * 0.8**-10 * 0.8, rel=1e-6)  # by the largest of the last ten steps
@@ -121,7 +121,7 @@ def test_only_fields_in_which_anything_moves_are_judged(tmp_path):
         (1, 1, ({"Ux", "Uy", "Uz", "p"},) * 3),
     ],
 )
-def test_symmetry_tells_which_fields_vanish(along_x, along_y, expected):
+def test_symmetry_states_which_fields_vanish(along_x, along_y, expected):
     x = np.arange(6) % 3
     walls = Walls(lower=-1.0 - along_x * x[:, None] - along_y * x, upper=np.zeros((6, 6)), spacing=(1.0, 1.0))
     found = [judged_of(drive, walls) for drive in DRIVES]
@@ -145,7 +145,7 @@ def test_faults_of_a_mesh_are_borne_only_where_they_are_known_to_be_harmless(tmp
 
 
 @pytest.mark.openfoam
-def test_rungs_tell_the_quantities_and_fields_of_their_kind():
+def test_rungs_state_the_quantities_and_fields_of_their_kind():
     scene = read_scene(ENTRIES)
     result = gap_navier_stokes.MODEL.solve(scene, Request(resolution=16, scheme="upwind"))
     value = {name: quantity.value for name, quantity in result.quantities.items()}
@@ -162,15 +162,15 @@ def test_rungs_tell_the_quantities_and_fields_of_their_kind():
 
 
 @pytest.mark.openfoam
-def test_cases_run_by_hand_tell_the_flow_as_their_readme_says(tmp_path):
+def test_cases_run_by_hand_state_the_flow_as_their_readme_says(tmp_path):
     case, a = tmp_path / "case", 0.3
     gap_stokes.MODEL.write(read_scene(ENTRIES), case, Request(resolution=32))
     assert subprocess.run([case / "Allrun"], check=False, capture_output=True).returncode == 0
     excess = float(re.search(r"times (\S+) by the layers", (case / "README").read_text())[1])
     thin = (1 - a**2) ** 2.5 / (1 + a**2 / 2)
     for drive, axis, exact in (("along", 0, 0.95383 * thin), ("across", 1, 0.94224 * (1 + 1.5 * a**2))):
-        told = (case / drive / "postProcessing" / "flow" / "0" / "volFieldValue.dat").read_text().splitlines()[-1]
-        velocity = float(told.split("(")[1].strip(")").split()[axis])
+        stated = (case / drive / "postProcessing" / "flow" / "0" / "volFieldValue.dat").read_text().splitlines()[-1]
+        velocity = float(stated.split("(")[1].strip(")").split()[axis])
         assert velocity / excess == pytest.approx(exact, rel=6e-3)
         assert velocity != pytest.approx(exact, rel=6e-3)
 

@@ -68,7 +68,7 @@ def test_a_lattice_of_spheres_drags_as_it_should():
 
 
 @pytest.mark.openfoam
-def test_a_place_inside_the_solid_is_told():
+def test_a_place_inside_the_solid_is_stated():
     box = Box(size=(1.0, 1.0), bottom=0.0, top=1.0, cells=(8, 8, 8))
     given = Carved(box=box, solid=ball(0.4, 0.5), inside=(0.51, 0.52, 0.53))
     with pytest.raises(ConvergenceError, match="does not reach the side 'west'"):

@@ -39,7 +39,7 @@ class Fakes:
                 model=name,
                 towards=above,
                 adds="something",
-                tells="",
+                measure="",
                 left_out={"load_plus": law(errors[name])} if errors.get(name) is not None else {},
             )
             for name, above in towards.items()
@@ -269,7 +269,7 @@ def test_a_law_without_powers_needs_no_numbers(scene, monkeypatch):
     kind = replace(kinds()["pocket"], numbers=lambda _scene: {})
     monkeypatch.setattr("roughfilm.rom.advice.advise.kind_of_scene", lambda _scene: kind)
     fakes = Fakes({"reynolds": 0.02, "film": 0.01}, {"reynolds": 1.0, "film": 1.0})
-    fakes.table = replace(fakes.table, steps=[replace(step, tells="slope") for step in fakes.table.steps])
+    fakes.table = replace(fakes.table, steps=[replace(step, measure="slope") for step in fakes.table.steps])
     assert fakes.advise(scene, 0.05).chosen.model == "reynolds"
 
 
@@ -362,7 +362,7 @@ def test_the_table_names_rungs_quantities_and_numbers_that_exist():
     for step in found.steps:
         kind = kind_of_laws(step.kind)
         assert {step.model, step.towards} <= {model.name for model in of_kind(ALL, kind.name)}
-        assert step.tells in kind.symbols
+        assert step.measure in kind.symbols
         if step.kind not in found.provenance["fits"]:
             assert not step.left_out
             continue
@@ -405,7 +405,7 @@ def test_a_table_is_read_from_its_text():
     model = "film"
     towards = "navier_stokes"
     adds = "slope"
-    tells = "slope"
+    measure = "slope"
     left_out.load_plus = { terms = [{ coefficient = 0.1, powers = { slope = 1.5 } }], reach = { slope = [0.1, 1.0] } }
     [[grid]]
     kind = "pocket"

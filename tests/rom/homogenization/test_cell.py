@@ -59,18 +59,18 @@ def test_every_solver_agrees_with_elimination(name, solver, truth):
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
 @pytest.mark.parametrize("name", GAPS)
-def test_what_is_left_unsolved_is_told(name, tolerance, truth):
+def test_what_is_left_unsolved_is_stated(name, tolerance, truth):
     found = solve_cell(GAPS[name], SPACINGS.get(name, (1.0, 1.0)), tolerance=tolerance)
     exact = truth[name].relative
     own = found.factors.relative
     # An energy that is minimised comes down on A, and rises to e.
-    for off, told, size in (
+    for off, stated, size in (
         (own.pressure[0, 0] - exact.pressure[0, 0], found.unsolved[0], exact.pressure[0, 0]),
         (own.pressure[1, 1] - exact.pressure[1, 1], found.unsolved[1], exact.pressure[1, 1]),
         (exact.shear_couette - own.shear_couette, found.unsolved[2], exact.shear_couette),
     ):
-        assert -1e-8 * size <= off <= 10 * told + 1e-8 * size
-        assert told <= 1.01 * tolerance * size
+        assert -1e-8 * size <= off <= 10 * stated + 1e-8 * size
+        assert stated <= 1.01 * tolerance * size
 
 
 def test_the_next_solver_takes_over(monkeypatch):

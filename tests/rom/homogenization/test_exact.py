@@ -304,14 +304,14 @@ def test_isolated_pockets_let_nothing_through_and_do_not_disturb():
         (np.zeros((4, 4)), "closed"),
     ],
 )
-def test_bad_gaps_are_told_in_one_line(gap, word):
-    with pytest.raises(InputError, match=word) as told:
+def test_bad_gaps_are_refused_in_one_line(gap, word):
+    with pytest.raises(InputError, match=word) as raised:
         flow_factors(gap, (1.0, 1.0))
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(raised.value)
 
 
 @pytest.mark.parametrize("spacing", [(1.0, 0.0), (1.0, -1.0), (math.nan, 1.0), (math.inf, 1.0), (1.0,)])
-def test_bad_spacings_are_told_in_one_line(spacing):
-    with pytest.raises(InputError, match="spacing") as told:
+def test_bad_spacings_are_refused_in_one_line(spacing):
+    with pytest.raises(InputError, match="spacing") as raised:
         flow_factors(np.ones((4, 4)), spacing)
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(raised.value)

@@ -83,7 +83,7 @@ def test_the_cell_turns_its_tensor():
 
 
 @pytest.mark.parametrize(
-    ("tensor", "size", "told"),
+    ("tensor", "size", "message"),
     [
         ([[1, 0.5], [0.2, 1]], (1, 1), "symmetric"),
         ([[1, 2], [2, 1]], (1, 1), "positive definite"),
@@ -92,6 +92,6 @@ def test_the_cell_turns_its_tensor():
         (np.eye(2), (1, 0), "lengths"),
     ],
 )
-def test_what_makes_no_sense_is_refused(tensor, size, told):
-    with pytest.raises(InputError, match=told):
+def test_what_makes_no_sense_is_refused(tensor, size, message):
+    with pytest.raises(InputError, match=message):
         box_factors(tensor, size)

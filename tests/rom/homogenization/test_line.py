@@ -237,18 +237,18 @@ def test_the_plane_bounds_what_it_does_not_know_alike():
         ([0.0, 0.0, 0.0], "closed"),
     ],
 )
-def test_bad_profiles_are_told_in_one_line(gap, word):
+def test_bad_profiles_are_refused_in_one_line(gap, word):
     for call in (line_factors, lambda profile: line_factors_on(profile, 64)):
-        with pytest.raises(InputError, match=word) as told:
+        with pytest.raises(InputError, match=word) as raised:
             call(gap)
-        assert "\n" not in str(told.value)
+        assert "\n" not in str(raised.value)
 
 
 @pytest.mark.parametrize(
     ("nodes", "rule"),
     [(3, Rule.TRAPEZOID), (65, Rule.SIMPSON), (64.0, Rule.SIMPSON), (True, Rule.DIFFERENCES), (2**25, Rule.TRAPEZOID)],
 )
-def test_bad_numbers_of_nodes_are_told_in_one_line(nodes, rule):
-    with pytest.raises(InputError, match="nodes") as told:
+def test_bad_numbers_of_nodes_are_refused_in_one_line(nodes, rule):
+    with pytest.raises(InputError, match="nodes") as raised:
         line_factors_on([1.0, 2.0], nodes, rule=rule)
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(raised.value)

@@ -212,7 +212,7 @@ def test_a_channel_along_a_side_is_inside_the_box():
 
 
 @pytest.mark.parametrize(
-    ("gap", "spacing", "told"),
+    ("gap", "spacing", "message"),
     [
         (np.zeros((4, 4)), (1.0, 1.0), "closed everywhere"),
         (np.full((4, 4), -1.0), (1.0, 1.0), "overlap"),
@@ -221,6 +221,6 @@ def test_a_channel_along_a_side_is_inside_the_box():
         (np.ones((4, 4)), (1.0, 0.0), "spacing"),
     ],
 )
-def test_what_makes_no_sense_is_refused(gap, spacing, told):
-    with pytest.raises(InputError, match=told):
+def test_what_makes_no_sense_is_refused(gap, spacing, message):
+    with pytest.raises(InputError, match=message):
         patir_cheng(gap, spacing)

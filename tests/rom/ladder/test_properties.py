@@ -31,7 +31,7 @@ MESH = {"pocket": 30, "rough_gap": 16}
 """Columns of OpenFOAM's meshes."""
 
 LIMIT, TIMES = 60.0, 50.0
-"""CPU seconds that an answer may take, with what is compiled on the way, or so many times what is told: no hang."""
+"""CPU seconds that an answer may take, with what is compiled on the way, or so many times what is stated: no hang."""
 
 
 def examples(count):

@@ -122,12 +122,12 @@ def test_openfoam_reads_the_gmsh_file(walls, tmp_path):
         head = f"FoamFile {{ version 2.0; format ascii; class dictionary; object {name}; }}"
         (tmp_path / "system" / name).write_text(f"{head}\n{entries}\n")
     succeed(tmp_path, ["gmshToFoam", "gap.msh"], "log.gmshToFoam")
-    told = succeed(tmp_path, ["checkMesh"], "log.checkMesh").log
-    assert f"Total volume = {50e-6 * 30e-6 * MEAN:.2g}" in told
-    assert "Mesh OK" in told
+    stated = succeed(tmp_path, ["checkMesh"], "log.checkMesh").log
+    assert f"Total volume = {50e-6 * 30e-6 * MEAN:.2g}" in stated
+    assert "Mesh OK" in stated
 
 
-def test_a_file_that_cannot_be_written_is_told(walls, tmp_path):
+def test_a_file_that_cannot_be_written_is_stated(walls, tmp_path):
     mesh = gap_mesh(walls, 1)
     with pytest.raises(InputError, match=r"suffix '\.obj'"):
         write_mesh(mesh, tmp_path / "gap.obj")

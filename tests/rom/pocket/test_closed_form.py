@@ -48,7 +48,7 @@ def test_inertia_pressure_integrates_that_gradient(q):
 
 
 @pytest.mark.parametrize(("width", "depth"), [(0.3, 0.25), (0.5, 0.25), (0.3, 0.01)])
-def test_depth_averaged_momentum_with_the_parabola_is_told_apart(make_scene, width, depth):
+def test_depth_averaged_momentum_with_the_parabola_differs(make_scene, width, depth):
     """Averaging the momentum instead of weighting it loses a sixth of the load.
 
     By hand, at q = 1/2 and h near 1: weighting gives 6 N = -h'/5, averaging d/dx of h <u²> gives -h'/6, so 5/6.

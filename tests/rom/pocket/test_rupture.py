@@ -34,7 +34,7 @@ def warnings_of(model, scene):
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
-def test_every_model_without_cavitation_tells_the_lowest_pressure_below_that_of_cavitation(model):
+def test_every_model_without_cavitation_states_the_lowest_pressure_below_that_of_cavitation(model):
     (warning,) = warnings_of(model, ruptured())
     lowest = float(warning.split()[3])
     assert lowest == pytest.approx(-641, rel=0.02)

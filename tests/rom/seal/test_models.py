@@ -148,7 +148,7 @@ def test_directions_are_those_of_the_surface(tmp_path):
     assert along[0] == pytest.approx(along[1], rel=1e-6)
 
 
-def test_full_contact_is_sealed_and_told_as_a_number():
+def test_full_contact_is_sealed_and_stated_as_a_number():
     for name in ("direct_leakage", "homogenized_leakage"):
         result = values(name, seal(pressure="100 MPa"))
         assert result["sealed"] == 1.0

@@ -96,7 +96,7 @@ def test_friction_is_best_where_it_is_smallest_and_load_where_it_is_largest():
 
 
 @pytest.mark.parametrize(("uncertainty", "decided"), [(0.1, True), (1.0, False), (np.nan, None)])
-def test_the_best_two_cases_are_told_apart_by_their_uncertainties(uncertainty, decided):
+def test_the_best_two_cases_are_stated_apart_by_their_uncertainties(uncertainty, decided):
     assert answered("load_per_width", [1, 2, 3], uncertainty).decided is decided
 
 

@@ -101,7 +101,7 @@ def test_a_larger_uncertainty_of_the_run_itself_is_kept(results):
         (0.02, 0.5, None, False),
     ],
 )
-def test_errors_are_told_apart_where_their_intervals_do_not_overlap(error, other, uncertainty, apart):
+def test_errors_are_stated_apart_where_their_intervals_do_not_overlap(error, other, uncertainty, apart):
     assert distinguished(error, other, uncertainty) is apart
     assert distinguished(other, error, uncertainty) is apart
 
@@ -119,7 +119,7 @@ def test_models_within_the_uncertainty_of_the_reference_are_not_ranked(scene, re
     assert "load_plus" not in undecided(scene, MODELS, fine)
 
 
-def test_the_front_leaves_out_what_the_reference_does_not_tell_apart():
+def test_the_front_leaves_out_what_the_reference_does_not_separate():
     def at(cpu_s: float, error: float) -> Point:
         return Point(model="m", resolution=1, cpu_s=cpu_s, error={"load_plus": error})
 

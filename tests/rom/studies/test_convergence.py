@@ -37,7 +37,7 @@ def test_the_published_example():
 
 
 @pytest.mark.parametrize("grids", RATIOS[:3])
-def test_a_higher_order_than_the_formal_one_is_told_but_not_trusted(grids):
+def test_a_higher_order_than_the_formal_one_is_stated_but_not_trusted(grids):
     values = manufactured(grids, (30.0, 3.5))
     found = converge(grids, values, formal_order=2)
     assert (found.order, found.order_used, found.order_text) == (pytest.approx(3.5), 2, "3.50 → 2")

@@ -52,7 +52,7 @@ COARSE = {"navier_stokes": random(-0.016, 0.011), "film": -0.008, "film_slope": 
 """A reference of 60 columns is off by -1.6 to +1.1 %; film_slope is nearer to the truth than film."""
 
 
-def test_a_coarse_reference_ranks_neither_of_two_models_that_it_does_not_tell_apart():
+def test_a_coarse_reference_ranks_neither_of_two_models_that_it_does_not_separate():
     of = sweep(COARSE, uncertainty={"navier_stokes": 0.016 * 3})
     reference = reference_of(of, models("pocket"))
     assert reference.setting == "navier_stokes"
@@ -80,14 +80,14 @@ def test_a_reference_of_unknown_uncertainty_ranks_nothing():
     assert np.isinf(interval(of, "film", reference, "load_plus")[1]).all()
 
 
-def test_a_law_tells_the_uncertainty_of_one_grid():
+def test_a_law_states_the_uncertainty_of_one_grid():
     of = sweep(COARSE, expected={"navier_stokes": 0.02})
     assert reference_of(of, models("pocket")).uncertainty["load_plus"] == pytest.approx(0.02)
     stated = sweep(COARSE, expected={"navier_stokes": 0.02}, uncertainty={"navier_stokes": 0.03})
     assert reference_of(stated, models("pocket")).uncertainty["load_plus"] == pytest.approx(0.01, rel=0.02)
 
 
-def test_the_grids_of_a_study_tell_it_and_the_finest_one_is_the_reference():
+def test_the_grids_of_a_study_state_it_and_the_finest_one_is_the_reference():
     """Errors of 8 (10/n)², so that the one at n = 80 is 12.5 % of the truth, which its uncertainty covers."""
     grids = {n: f"navier_stokes-{n}" for n in (80, 20, 40)}
     of = sweep(

@@ -70,8 +70,8 @@ geometry = { profile = "splined", shift = ["-0.3 width", "0.3 width"] }
 motion.reynolds_number = 20
 """,
     )
-    told = [(case.scene.grooves[0].profile, case.scene.reynolds_number) for case in found.cases]
-    assert told == [("cylindrical", 40), ("cylindrical", 80), ("splined", 20), ("splined", 20)]
+    stated = [(case.scene.grooves[0].profile, case.scene.reynolds_number) for case in found.cases]
+    assert stated == [("cylindrical", 40), ("cylindrical", 80), ("splined", 20), ("splined", 20)]
     assert [case.varied.get("shift") for case in found.cases] == [None, None, "-0.3 width", "0.3 width"]
 
 

@@ -101,7 +101,7 @@ def test_a_grid_whose_errors_cancel_is_not_named_the_cheapest(chart):
     assert named == {0.1: ("fine", 4), 0.01: ("fine", 16), 0.001: ("fine", 32)}
 
 
-def test_an_uncertain_reference_neither_ranks_what_it_does_not_tell_apart_nor_names_it_within_a_tolerance(tmp_path):
+def test_an_uncertain_reference_neither_ranks_what_it_does_not_separate_nor_names_it_within_a_tolerance(tmp_path):
     """With 0.7 %, errors of 2 % and of 0.4 % overlap, and 0.4 % may be 1.1 %."""
     family = Solvers(KNOWN + FINER, uncertainty=7e-3).family
     chart = judged(family, answers(family, tmp_path / "test.json", silent), {})
@@ -149,9 +149,9 @@ def test_a_solver_that_failed_is_named_and_asked_again(tmp_path):
     path, solvers = tmp_path / "test.json", Solvers(KNOWN, broken={("fine", 4): ConvergenceError("it swings")})
     found = answers(solvers.family, path, silent)
     assert found.failed == {"fine-4": "it swings"}
-    told = entries_of(judged(solvers.family, found, {}))
-    assert told["failed"] == {"fine-4": "it swings"}
-    assert len(told["points"]) == len(KNOWN) - 1
+    stated = entries_of(judged(solvers.family, found, {}))
+    assert stated["failed"] == {"fine-4": "it swings"}
+    assert len(stated["points"]) == len(KNOWN) - 1
     solvers.broken.clear()
     assert answers(solvers.family, path, silent).failed == {}
 
@@ -302,10 +302,10 @@ def test_the_command_writes_the_page_and_its_numbers(tmp_path, monkeypatch):
     out = tmp_path / "charts"
     result = run("--out", out, "--family", "small slider", "--json")
     assert result.exit_code == 0, result.output
-    told = json.loads(result.stdout)
-    assert told == json.loads((out / "charts.json").read_text())
-    assert set(told["machine"]) == {"system", "processor", "cores"}
-    (family,) = told["families"]
+    stated = json.loads(result.stdout)
+    assert stated == json.loads((out / "charts.json").read_text())
+    assert set(stated["machine"]) == {"system", "processor", "cores"}
+    (family,) = stated["families"]
     assert family["absent"] == {"GaPFlow": GAPFLOW_ABSENT}
     points = {point["solver"]: point for point in family["points"]}
     assert set(points) == {"reynolds", "reynolds_incompressible", "reynolds_cavitating"}
@@ -318,7 +318,7 @@ def test_the_command_writes_the_page_and_its_numbers(tmp_path, monkeypatch):
     assert [float(row["cpu_s (s)"]) for row in rows] == [point["cpu_s"] for point in family["points"]]
     page = (out / "charts.html").read_text()
     assert GAPFLOW_ABSENT in page
-    assert told["machine"]["processor"] in page
+    assert stated["machine"]["processor"] in page
     assert "<svg" in page
     assert (out / "charts.png").read_bytes().startswith(b"\x89PNG")
     assert (out / "small-slider.svg").is_file()

@@ -40,7 +40,7 @@ def page_of(path):
     return page
 
 
-def test_solve_tells_the_table_of_the_source(tmp_path):
+def test_solve_states_the_table_of_the_source(tmp_path):
     out = tmp_path / "r.h5"
     arguments = ["--set", "boundary.inlet.theta=0.55", "--model", "reynolds_cavitating", "--json", "--out", out]
     message = json.loads(run("solve", SLIDER, *arguments).stdout)

@@ -48,8 +48,8 @@ def one_line(text: str) -> str:
 def test_models():
     result = run("models", "--json")
     assert result.exit_code == 0
-    told = json.loads(result.stdout)["models"]
-    names = {kind: [model["name"] for model in told if model["kind"] == kind] for kind in ("pocket", "dry_contact")}
+    stated = json.loads(result.stdout)["models"]
+    names = {kind: [model["name"] for model in stated if model["kind"] == kind] for kind in ("pocket", "dry_contact")}
     assert names == {
         "pocket": [
             "reynolds",
@@ -79,14 +79,14 @@ def test_solve_json_is_one_object_and_nothing_else(pocket_file, tmp_path):
         "motion.reynolds_number=40",
     )
     assert result.exit_code == 0
-    told = json.loads(result.stdout)
-    assert {"model", "quantities", "numerics", "warnings", "expected_error", "provenance"} <= set(told)
-    assert set(told["quantities"]) == QUANTITIES
-    assert all(set(quantity) == {"value", "unit", "uncertainty"} for quantity in told["quantities"].values())
-    assert {"residual", "iterations", "cpu_s", "wall_s", "degrees_of_freedom"} <= set(told["numerics"])
-    assert told["quantities"]["load_plus"]["value"] == pytest.approx(0.890, abs=1e-3)
+    stated = json.loads(result.stdout)
+    assert {"model", "quantities", "numerics", "warnings", "expected_error", "provenance"} <= set(stated)
+    assert set(stated["quantities"]) == QUANTITIES
+    assert all(set(quantity) == {"value", "unit", "uncertainty"} for quantity in stated["quantities"].values())
+    assert {"residual", "iterations", "cpu_s", "wall_s", "degrees_of_freedom"} <= set(stated["numerics"])
+    assert stated["quantities"]["load_plus"]["value"] == pytest.approx(0.890, abs=1e-3)
     with h5py.File(out) as file:
-        assert file["quantities/load_plus"][()] == told["quantities"]["load_plus"]["value"]
+        assert file["quantities/load_plus"][()] == stated["quantities"]["load_plus"]["value"]
 
 
 def test_solve_does_not_write_over_its_scene(pocket_file):
@@ -262,9 +262,9 @@ def test_compare_without_openfoam_says_what_is_missing_and_why(pocket_file, tmp_
     without_openfoam(monkeypatch)
     result = run("compare", pocket_file, "--out", tmp_path / "o", "--json")
     assert result.exit_code == 0
-    told = json.loads(result.stdout)
-    assert told["model"] == "film_slope"
-    assert set(told["absent"]) == {"stokes", "navier_stokes"}
+    stated = json.loads(result.stdout)
+    assert stated["model"] == "film_slope"
+    assert set(stated["absent"]) == {"stokes", "navier_stokes"}
     page = (tmp_path / "o" / "report.html").read_text()
     assert "no simpleFoam on the PATH; install it" in page
     assert "navier_stokes" in page

@@ -23,14 +23,14 @@ def run(*arguments):
     return CliRunner().invoke(app, [str(argument) for argument in arguments])
 
 
-def test_solve_tells_coefficients_over_those_of_a_smooth_gap():
+def test_solve_states_coefficients_over_those_of_a_smooth_gap():
     done = run("solve", SCENE, "--model", "homogenized", "--json")
     assert done.exit_code == 0, done.output
-    told = json.loads(done.stdout)["quantities"]
+    stated = json.loads(done.stdout)["quantities"]
     a = 0.3
-    assert told["A11"]["value"] == pytest.approx((1 - a**2) ** 2.5 / (1 + a**2 / 2), rel=2e-4)
-    assert told["A22"]["value"] == pytest.approx(1 + 1.5 * a**2, rel=1e-9)
-    assert told["A11"]["unit"] == "1"
+    assert stated["A11"]["value"] == pytest.approx((1 - a**2) ** 2.5 / (1 + a**2 / 2), rel=2e-4)
+    assert stated["A22"]["value"] == pytest.approx(1 + 1.5 * a**2, rel=1e-9)
+    assert stated["A11"]["unit"] == "1"
 
 
 def test_overrides_replace_what_they_make_meaningless(tmp_path):

@@ -1,4 +1,4 @@
-"""The map of cell problems: its judge tells right from wrong by itself, and it is drawn and stored."""
+"""The map of cell problems: its judge finds wrong answers by itself, and it is drawn and stored."""
 
 from collections import Counter
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The map of the contact solver: the judge tells right from wrong by itself, and the whole map is drawn and stored."""
+"""The map of the contact solver: the judge finds wrong answers by itself, and the whole map is drawn and stored."""
 
 import math
 from collections import Counter

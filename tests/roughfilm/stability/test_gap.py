@@ -1,4 +1,4 @@
-"""The map of rough gaps: its judge tells right from wrong by itself, and it is drawn, stored and used again."""
+"""The map of rough gaps: its judge finds wrong answers by itself, and it is drawn, stored and used again."""
 
 import csv
 import json
@@ -83,7 +83,7 @@ def test_stokes_flow_over_long_ridges_is_that_of_thin_films_and_steep_ones_are_o
     assert exact_stokes(replace(wave, bumps=True)) is None
 
 
-def test_two_meshes_of_second_order_tell_the_limit(asked):
+def test_two_meshes_of_second_order_state_the_limit(asked):
     result = asked[1]
     right = {name: result.quantities[name].value for name in JUDGED}
     coarse, fine = result, result
@@ -94,7 +94,7 @@ def test_two_meshes_of_second_order_tell_the_limit(asked):
     assert found.uncertainties == pytest.approx({name: 0.03 * abs(value) for name, value in right.items()})
 
 
-def test_the_judge_tells_right_from_wrong(asked):
+def test_the_judge_states_right_from_wrong(asked):
     probe, result = asked
     right = exact_thin(probe.wave)
     assert spot_of(probe, result, right, right).outcome is MapOutcome.CONVERGED
@@ -122,7 +122,7 @@ def test_the_judge_tells_right_from_wrong(asked):
 
 
 @pytest.mark.parametrize(("name", "part"), [("A11", 1.06), ("A22", 1.06), ("friction", 0.94)])
-def test_what_no_flow_can_do_is_told_of_all_but_thin_films(asked, name, part):
+def test_what_no_flow_can_do_is_stated_of_all_but_thin_films(asked, name, part):
     probe, result = asked
     bare, thin = without_bars(result), exact_thin(probe.wave)
     resolved = replace(probe, setting=Setting(model=find("rough_gap", "stokes"), resolution=32))
@@ -158,7 +158,7 @@ def test_two_meshes_that_disagree_judge_no_cheap_rung():
     assert agreeing(None) is None
 
 
-def test_a_run_without_an_answer_has_no_numbers_and_is_told(asked):
+def test_a_run_without_an_answer_has_no_numbers_and_is_stated(asked):
     failure = failure_of(ConvergenceError("it swings", outcome=Outcome.UNSTEADY, iterations=613))
     spot = spot_of(asked[0], failure, exact_thin(asked[0].wave))
     assert (spot.outcome, spot.why, spot.numbers["A11"]) == (MapOutcome.STALLED, "unsteady", None)

@@ -1,4 +1,4 @@
-"""The map of where models converge: what it tells of each run, and that finished runs are used again."""
+"""The map of where models converge: what it states of each run, and that finished runs are used again."""
 
 import csv
 import json
@@ -268,7 +268,7 @@ def test_mixed_films_near_and_far_keep_the_laws(monkeypatch):
 
 @pytest.mark.openfoam
 @pytest.mark.slow
-def test_a_second_try_and_a_failure_are_told_from_what_simply_converges(small, tmp_path):
+def test_a_second_try_and_a_failure_are_stated_from_what_simply_converges(small, tmp_path):
     small({"stokes", "navier_stokes"}, depths_plus=(1e-9, 1e-6, 0.25))
     assert run("pocket", "--out", tmp_path, "--resolution", 30).exit_code == 0
     runs = json.loads((tmp_path / "stability.json").read_text())["runs"]

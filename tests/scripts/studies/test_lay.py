@@ -143,9 +143,9 @@ def test_the_page(monkeypatch, tmp_path, found):
     assert page.count("<svg") == 5
     assert "are absent" in page
     assert not re.search(r"""(src|href)\s*=\s*["'](?!#|data:|https://doi)|url\(\s*["']?(?!#|data:)|@import""", page)
-    told = json.loads((tmp_path / "lay.json").read_text(encoding="utf-8"))
-    assert [claim["number"] for claim in told["claims"]] == [20, 21, 26]
-    assert len(told["turned"]) == 3 * 3 * 3
+    stated = json.loads((tmp_path / "lay.json").read_text(encoding="utf-8"))
+    assert [claim["number"] for claim in stated["claims"]] == [20, 21, 26]
+    assert len(stated["turned"]) == 3 * 3 * 3
 
 
 @pytest.mark.measured

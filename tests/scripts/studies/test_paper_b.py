@@ -155,6 +155,6 @@ def test_the_page(monkeypatch, tmp_path):
     assert all(f"<h2>B.{number}</h2>" in page for number in range(1, 18))
     assert not re.search(r"""(src|href)\s*=\s*["'](?!#|data:)|url\(\s*["']?(?!#|data:)|@import""", page)
     assert {path.stem for path in tmp_path.glob("B.*.svg")} == {f"B.{number}" for number in range(1, 18)}
-    told = json.loads((tmp_path / "paper_b.json").read_text(encoding="utf-8"))
-    assert [claim["number"] for claim in told["claims"]] == [8, 9, 10]
-    assert len(told["differences"]) == 13
+    stated = json.loads((tmp_path / "paper_b.json").read_text(encoding="utf-8"))
+    assert [claim["number"] for claim in stated["claims"]] == [8, 9, 10]
+    assert len(stated["differences"]) == 13

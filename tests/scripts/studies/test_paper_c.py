@@ -240,7 +240,7 @@ def test_the_page(monkeypatch, tmp_path, paper):
     assert all(f"<h2>C.{number}</h2>" in page for number in range(4, 14))
     assert not re.search(r"""(src|href)\s*=\s*["'](?!#|data:)|url\(\s*["']?(?!#|data:)|@import""", page)
     assert {path.stem for path in tmp_path.glob("C.*.svg")} == {f"C.{number}" for number in range(4, 14)}
-    told = json.loads((tmp_path / "paper_c.json").read_text(encoding="utf-8"))
-    assert [claim["number"] for claim in told["claims"]] == [11, 12, 14]
-    assert told["claims"][0]["verdict"] == "true"
-    assert told["profiles"]["C"]["peak"] == pytest.approx(0.57e-6, rel=1e-6)
+    stated = json.loads((tmp_path / "paper_c.json").read_text(encoding="utf-8"))
+    assert [claim["number"] for claim in stated["claims"]] == [11, 12, 14]
+    assert stated["claims"][0]["verdict"] == "true"
+    assert stated["profiles"]["C"]["peak"] == pytest.approx(0.57e-6, rel=1e-6)

@@ -102,8 +102,8 @@ def test_the_page(monkeypatch, tmp_path):
     paper_d.command(tmp_path)
     page = (tmp_path / "paper_d.html").read_text(encoding="utf-8")
     assert page.count("<svg") == 8
-    told = json.loads((tmp_path / "paper_d.json").read_text(encoding="utf-8"))
-    assert [claim["number"] for claim in told["claims"]] == [15, 16, 17, 18]
-    assert told["profiles"]["self-affine"]["A"]["average"] == pytest.approx(0.93e-6, rel=1e-5)
+    stated = json.loads((tmp_path / "paper_d.json").read_text(encoding="utf-8"))
+    assert [claim["number"] for claim in stated["claims"]] == [15, 16, 17, 18]
+    assert stated["profiles"]["self-affine"]["A"]["average"] == pytest.approx(0.93e-6, rel=1e-5)
     least = 1e5 / 0.42e-3 / 4e9
-    assert all(found["area"]["mean"][-1] >= least for found in told["pressed"]["self-affine"].values())
+    assert all(found["area"]["mean"][-1] >= least for found in stated["pressed"]["self-affine"].values())

@@ -186,7 +186,7 @@ def test_direct_and_homogenized_leaks_are_judged_within_five_per_cent(apart, ver
     assert (one.window, one.start, axis) == ("c", (0.5, 0.5), 1)
 
 
-def test_studies_tell_what_half_and_double_the_load_do():
+def test_studies_state_what_half_and_double_the_load_do():
     report = dict(studies(windows(0.01)))
     assert report["half load, window a"] == "+18.9 %"
     assert report["double load, window a"] == "-15.9 %"

@@ -61,7 +61,7 @@ def base():
     return find("rough_gap", "smooth_gap").solve(over_waves(0.3, 5.0), Request(resolution=32))
 
 
-def told(base, scale=1.0, **numbers):
+def stated(base, scale=1.0, **numbers):
     return replace(base, quantities={name: Quantity(value=scale * one, unit="1") for name, one in numbers.items()})
 
 
@@ -100,7 +100,7 @@ def test_random_gaps_have_the_roughness_and_the_wavelength_asked_for(lay):
 def test_meshes_that_converge_are_extrapolated_over_reynolds_on_their_nodes(base):
     scene, grids, part = over_waves(0.3, 5.0), (32, 48, 64), 0.93
     thin = thin_ratios(0.3)
-    found = {one.key: told(base, part + 2 / one.resolution**2, **thin) for one in asked_of(scene, grids)}
+    found = {one.key: stated(base, part + 2 / one.resolution**2, **thin) for one in asked_of(scene, grids)}
     for name, one in resolved(scene, grids, found).items():
         assert one.value == pytest.approx(part, abs=2e-5), name
         assert one.order == pytest.approx(2, abs=0.05)
@@ -118,7 +118,7 @@ def test_the_beginning_of_inertia_is_found_again(base):
     for one in rough_gaps_inertia.asked(shapes, reynolds, {}):
         passed = 1 - (one.scene.rms_height / one.scene.mean_gap) ** 2
         lost = law(one.scene, passed)
-        found[one.key] = told(base, passed * (1 - lost * (one.model == "navier_stokes")), A11=1.0)
+        found[one.key] = stated(base, passed * (1 - lost * (one.model == "navier_stokes")), A11=1.0)
     inertia = rough_gaps_inertia.inertia(found, shapes, reynolds, {})
     (found_law,) = inertia.laws
     assert found_law.group == "waves"
@@ -251,7 +251,7 @@ def test_the_page_is_one_file_with_its_numbers_beside_it(small):
     assert float(rows[0]["A11_exact"]) == pytest.approx(flow, rel=1e-4)
 
 
-def test_words_and_tables_tell_what_meshes_found(small, base):
+def test_words_and_tables_state_what_meshes_found(small, base):
     """Of answers that are made up: the exact flow, with an error that falls as the square of the cells."""
     found, folder = small
     exact, thin = found.waves.resolved[0].exact, thin_ratios(0.3)

@@ -52,7 +52,7 @@ def fit(kind: str, scenes: Mapping[int, FitScene], refinements: Refinements) -> 
             model=plan.model,
             towards=plan.towards,
             adds=plan.adds,
-            tells=plan.tells,
+            measure=plan.measure,
             left_out=laws(
                 kind, plan.terms, partial(getattr(rows, plan.rows), scenes, refinements, plan.model, plan.towards)
             ),

@@ -22,7 +22,7 @@ class PlannedStep:
     model: str
     towards: str
     adds: str
-    tells: str
+    measure: str
     terms: Terms = ()
     rows: str = "between_limits"
 

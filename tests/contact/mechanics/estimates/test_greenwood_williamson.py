@@ -34,7 +34,7 @@ def test_exceedances_are_their_integrals(t, power):
 
 @pytest.mark.parametrize("ratio", [1e-5, 1e-3, 0.02])
 def test_it_is_a_crowd_of_hertzian_contacts(ratio):
-    """A million asperities at the quantiles of their heights, each a sphere under the plane at the separation told."""
+    """A million asperities at the quantiles of their heights, each a sphere under the plane at its separation."""
     load = ratio * STIFFNESS
     found = greenwood_williamson(MOMENTS, composite_modulus=MODULUS, load=load)
     count = 1_000_000

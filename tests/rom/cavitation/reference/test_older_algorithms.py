@@ -104,7 +104,7 @@ def test_the_switch_algorithm_refuses_what_it_cannot(given, match):
         switched(slider(**given), 100)
 
 
-def test_the_switch_algorithm_tells_densities_that_no_pressure_has():
+def test_the_switch_algorithm_states_densities_that_no_pressure_has():
     law = DowsonHigginson(law="dowson_higginson", c1="0.1 GPa", c2=1.0005)
     with pytest.raises(ConvergenceError, match="densities") as raised:
         switched(slider(law=law), 100)

@@ -91,8 +91,8 @@ def test_low_ridges_tend_to_perturbation_theory_with_the_fourth_power(length):
         walls = along_x(wave, length / 8)
         turned = Walls(lower=walls.lower.T, upper=walls.upper.T, spacing=walls.spacing[::-1])
         low, aside = nearly_smooth_flow(walls), nearly_smooth_flow(turned)
-        told = [*np.diag(low.pressure), low.shear[0], aside.shear[0], low.friction, aside.friction]
-        off.append(numbers(sinusoidal_ridge_flow(amplitude, length, tolerance=1e-10)) - told)
+        stated = [*np.diag(low.pressure), low.shear[0], aside.shear[0], low.friction, aside.friction]
+        off.append(numbers(sinusoidal_ridge_flow(amplitude, length, tolerance=1e-10)) - stated)
     clear = np.abs(off[1]) > 1e-8
     assert clear.sum() >= 4
     assert np.log2(off[1][clear] / off[0][clear]) == pytest.approx(4, abs=0.1)
@@ -106,8 +106,8 @@ def test_both_walls_low():
     walls = Walls(
         lower=np.tile(lower[:, None], (1, 2)), upper=np.tile(upper[:, None], (1, 2)), spacing=(length / n, 1.0)
     )
-    told = nearly_smooth_flow(walls).pressure
-    assert (found.across, found.along) == pytest.approx((told[0, 0], told[1, 1]), abs=20 * height**4)
+    stated = nearly_smooth_flow(walls).pressure
+    assert (found.across, found.along) == pytest.approx((stated[0, 0], stated[1, 1]), abs=20 * height**4)
     assert np.isnan(found.drag)
 
 
@@ -115,10 +115,10 @@ def test_perturbation_theory_without_slope_is_that_of_thin_films():
     rng = np.random.default_rng(SEED)
     lower = rng.normal(size=(12, 10)) * 0.01
     walls = Walls(lower=lower, upper=np.ones_like(lower), spacing=(0.3, 0.2))
-    told, thin = nearly_smooth_flow(walls, stokes=False), nearly_smooth(walls.gap, walls.spacing)
-    assert told.pressure == pytest.approx(thin.pressure, abs=1e-12)
-    assert told.shear == pytest.approx(thin.shear, abs=1e-12)
-    assert told.friction == pytest.approx(thin.couette + 3 * thin.shear_couette, abs=1e-12)
+    stated, thin = nearly_smooth_flow(walls, stokes=False), nearly_smooth(walls.gap, walls.spacing)
+    assert stated.pressure == pytest.approx(thin.pressure, abs=1e-12)
+    assert stated.shear == pytest.approx(thin.shear, abs=1e-12)
+    assert stated.friction == pytest.approx(thin.couette + 3 * thin.shear_couette, abs=1e-12)
 
 
 def test_walls_answer_long_waves_as_thin_films_do_and_short_ones_alone():
@@ -163,14 +163,14 @@ def test_low_cells_are_as_perturbation_theory_has_them():
     lower = height * (np.cos(x + y) + np.sin(x) - 0.7 * np.cos(y + 0.4))
     walls = Walls(lower=lower, upper=np.ones_like(lower), spacing=(0.5, 0.6))
     for own in (walls, replace(walls, upper=1 + np.roll(lower.T, 1, axis=0))):
-        found, told = ritz_flow(own, tolerance=1e-5), nearly_smooth_flow(own)
-        assert found.pressure == pytest.approx(told.pressure, abs=60 * height**3)
+        found, stated = ritz_flow(own, tolerance=1e-5), nearly_smooth_flow(own)
+        assert found.pressure == pytest.approx(stated.pressure, abs=60 * height**3)
         if own.slides:
-            assert found.shear == pytest.approx(told.shear, abs=60 * height**3)
-            assert found.friction == pytest.approx(told.friction, abs=60 * height**3)
+            assert found.shear == pytest.approx(stated.shear, abs=60 * height**3)
+            assert found.friction == pytest.approx(stated.friction, abs=60 * height**3)
 
 
-def test_what_cannot_be_solved_is_told():
+def test_what_cannot_be_solved_is_stated():
     with pytest.raises(InputError, match=r"amplitude 1\.0"):
         sinusoidal_ridge_flow(1.0, 3.0)
     with pytest.raises(InputError, match="must not touch"):

@@ -63,17 +63,17 @@ def test_what_is_left_out_is_of_fourth_order_in_slope(along):
 def test_exact_ridges_lie_between_the_bounds_and_within_the_error_bar(amplitude, length):
     exact = sinusoidal_ridge_flow(amplitude, length, tolerance=1e-5)
     across, along = (slope_corrected(ridges(amplitude, length, 256, along=way)) for way in (False, True))
-    for told, own in (
+    for stated, own in (
         (np.array([exact.across, exact.along]), across),
         (np.array([exact.along, exact.across]), along),
     ):
         thin, least, best, bar = (
             np.diag(part.pressure) for part in (own.thin, own.bound, own.corrected, own.uncertainty)
         )
-        assert np.all(least < told * (1 + 1e-3))
-        assert np.all(told < thin * (1 + 1e-3))
-        assert np.all(np.abs(best - told) < bar + 1e-4)
-        assert np.all(np.abs(best - told) < np.abs(thin - told))
+        assert np.all(least < stated * (1 + 1e-3))
+        assert np.all(stated < thin * (1 + 1e-3))
+        assert np.all(np.abs(best - stated) < bar + 1e-4)
+        assert np.all(np.abs(best - stated) < np.abs(thin - stated))
     for drag, friction, own in (
         (exact.drag, exact.friction, across),
         (exact.drag_along, exact.friction_along, along),

@@ -157,7 +157,7 @@ def test_the_narrowest_place_of_the_widest_path():
     assert constriction(gap) is None
 
 
-def test_a_wall_at_the_joint_is_told_from_one_inside():
+def test_a_wall_at_the_joint_is_stated_from_one_inside():
     gap = np.ones((64, 64))
     gap[0] = 0.0
     assert joint_seals(gap) == (True, False)

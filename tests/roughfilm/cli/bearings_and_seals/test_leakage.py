@@ -47,14 +47,14 @@ def _without_pages(monkeypatch):
 
 
 @pytest.fixture(scope="module")
-def told(place):
+def stated(place):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("roughfilm.figures.spatial.pressed_surface.draw_apart", lambda *_: ABSENT)
         return asked("leakage", place / "seal.toml", "--out", place / "out")
 
 
-def test_loads_reach_from_the_first_touch_to_beyond_where_it_seals(told):
-    series = told["series"]
+def test_loads_reach_from_the_first_touch_to_beyond_where_it_seals(stated):
+    series = stated["series"]
     assert 25 <= len(series) <= 28
     loads, areas = ([row[name] for row in series] for name in ("load", "area_fraction"))
     assert loads == sorted(loads)
@@ -63,37 +63,37 @@ def test_loads_reach_from_the_first_touch_to_beyond_where_it_seals(told):
     assert not any(series[0][f"{name}_sealed"] for name in NAMES)
 
 
-def test_leakage_falls_and_is_nothing_where_sealed(told):
+def test_leakage_falls_and_is_nothing_where_sealed(stated):
     for name in NAMES:
-        column = [row[name] for row in told["series"]]
+        column = [row[name] for row in stated["series"]]
         assert all(a > b or a == b == 0 for a, b in itertools.pairwise(column))
-        assert [value == 0 for value in column] == [row[f"{name}_sealed"] == 1 for row in told["series"]]
-    for row in told["series"]:
+        assert [value == 0 for value in column] == [row[f"{name}_sealed"] == 1 for row in stated["series"]]
+    for row in stated["series"]:
         assert row["direct_x"] >= row["homogenized_x"] * (1 - 1e-6)
         assert row["direct_y"] >= row["homogenized_y"] * (1 - 1e-6)
 
 
-def test_thresholds_part_the_series(told):
+def test_thresholds_part_the_series(stated):
     for name in NAMES:
-        side = told["thresholds"][name]
-        assert told["quantities"][f"seals_{name}"]["value"] == 1
-        assert side["open"]["load"] < told["quantities"][f"sealing_load_{name}"]["value"] < side["sealed"]["load"]
+        side = stated["thresholds"][name]
+        assert stated["quantities"][f"seals_{name}"]["value"] == 1
+        assert side["open"]["load"] < stated["quantities"][f"sealing_load_{name}"]["value"] < side["sealed"]["load"]
         assert side["sealed"]["load"] <= 1.0101 * side["open"]["load"]
-        for row in told["series"]:
+        for row in stated["series"]:
             if row["load"] <= side["open"]["load"]:
                 assert row[f"{name}_sealed"] == 0
             if row["load"] >= side["sealed"]["load"]:
                 assert row[f"{name}_sealed"] == 1
 
 
-def test_tables_and_page_hold_the_series(told, place):
+def test_tables_and_page_hold_the_series(stated, place):
     table = read_table(place / "out" / "table.h5")
-    assert table["load"].tolist() == [row["load"] for row in told["series"]]
+    assert table["load"].tolist() == [row["load"] for row in stated["series"]]
     leak = table["leakage_direct_y"]
     assert leak == pytest.approx(1e3 * table["direct_y"] * 1e6 / (12e-3 * 1e-3), rel=1e-12)
     with (place / "out" / "table.csv").open(encoding="utf-8") as file:
         lines = list(csv.reader(file))
-    assert len(lines) == 1 + len(told["series"])
+    assert len(lines) == 1 + len(stated["series"])
     assert "leakage_direct_x (kg/(m*s))" in lines[0]
     page = (place / "out" / "report.html").read_text(encoding="utf-8")
     assert page.count("<svg") >= 4
@@ -101,10 +101,10 @@ def test_tables_and_page_hold_the_series(told, place):
     assert "http://www.w3.org" in page
 
 
-def test_the_page_begins_with_the_leakage_at_the_load_of_the_scene(told, place):
-    quantities, page = told["quantities"], (place / "out" / "report.html").read_text(encoding="utf-8")
+def test_the_page_begins_with_the_leakage_at_the_load_of_the_scene(stated, place):
+    quantities, page = stated["quantities"], (place / "out" / "report.html").read_text(encoding="utf-8")
     assert quantities["load"]["value"] == 10e3
-    (row,) = [row for row in told["series"] if row["load"] == 10e3]
+    (row,) = [row for row in stated["series"] if row["load"] == 10e3]
     leak, bar = (3.6e6 * quantities["leakage_per_width"][name] for name in ("value", "uncertainty"))
     assert 3.6e6 * row["leakage_homogenized_y"] < leak < 3.6e6 * row["leakage_direct_y"]
     unit = re.search(r"<b>[\d.]+ ± [\d.]+ (.*)</b><span>leakage per width at 0.01 MPa along y", page)[1]
@@ -114,23 +114,23 @@ def test_the_page_begins_with_the_leakage_at_the_load_of_the_scene(told, place):
     assert quantities["area_fraction"]["value"] == row["area_fraction"]
 
 
-def test_the_answer_of_the_page_is_that_of_the_model(told, place):
+def test_the_answer_of_the_page_is_that_of_the_model(stated, place):
     whole = asked("solve", place / "seal.toml", "--model", "direct_leakage", "--resolution", 32)["quantities"]
     for name in ("leakage_per_width", "area_fraction", "mean_gap"):
         for number in ("value", "uncertainty"):
-            assert told["quantities"][name][number] == pytest.approx(whole[name][number], rel=1e-4)
+            assert stated["quantities"][name][number] == pytest.approx(whole[name][number], rel=1e-4)
 
 
-def test_the_same_command_solves_nothing_again(told, place):
+def test_the_same_command_solves_nothing_again(stated, place):
     again = asked("leakage", place / "seal.toml", "--out", place / "out")
-    assert again["numerics"]["loads_found"] == len(told["series"])
-    assert again["series"] == told["series"]
+    assert again["numerics"]["loads_found"] == len(stated["series"])
+    assert again["series"] == stated["series"]
 
 
-def test_another_liquid_takes_the_same_contacts_and_another_solid_does_not(told, place):
+def test_another_liquid_takes_the_same_contacts_and_another_solid_does_not(stated, place):
     thick = asked("leakage", place / "seal.toml", "--out", place / "out", "--set", "liquid.viscosity=2 mPa*s")
-    assert thick["numerics"]["loads_found"] == len(told["series"])
-    assert thick["series"][0]["leakage_direct_x"] == pytest.approx(told["series"][0]["leakage_direct_x"] / 2)
+    assert thick["numerics"]["loads_found"] == len(stated["series"])
+    assert thick["series"][0]["leakage_direct_x"] == pytest.approx(stated["series"][0]["leakage_direct_x"] / 2)
     refused = run("leakage", place / "seal.toml", "--out", place / "out", "--set", "solid.modulus=11 MPa")
     assert refused.exit_code == 2
     assert "holds another series" in refused.stderr
@@ -160,8 +160,8 @@ def test_what_was_finished_is_kept_when_it_ends_half_way(place, monkeypatch):
 
 
 def test_loads_may_come_in_any_order_but_not_below_zero(place):
-    told = asked("leakage", place / "seal.toml", "--out", place / "few", "--loads", "20kPa,5kPa")
-    assert [row["load"] for row in told["series"]] == [5e3, 2e4]
+    stated = asked("leakage", place / "seal.toml", "--out", place / "few", "--loads", "20kPa,5kPa")
+    assert [row["load"] for row in stated["series"]] == [5e3, 2e4]
     refused = run("leakage", place / "seal.toml", "--out", place / "few", "--loads=-5kPa")
     assert refused.exit_code == 2
     assert "a load must be above 0" in refused.stderr
@@ -198,25 +198,25 @@ def test_a_flat_surface_is_sealed_under_the_loads_that_are_asked(place, monkeypa
     refused = run("leakage", place / "seal.toml", "--out", place / "flat", *flat)
     assert refused.exit_code == 2
     assert "is flat" in refused.stderr
-    told = asked("leakage", place / "seal.toml", "--out", place / "flat", *flat, "--loads", "1kPa,1MPa")
-    assert all(row[name] == 0 and row[f"{name}_sealed"] == 1 for row in told["series"] for name in NAMES)
-    assert all(row["valley_depth"] is None for row in told["series"])
+    stated = asked("leakage", place / "seal.toml", "--out", place / "flat", *flat, "--loads", "1kPa,1MPa")
+    assert all(row[name] == 0 and row[f"{name}_sealed"] == 1 for row in stated["series"] for name in NAMES)
+    assert all(row["valley_depth"] is None for row in stated["series"])
     assert "Nothing leaks at any of these loads" in (place / "flat" / "report.html").read_text(encoding="utf-8")
 
 
-def test_grooves_that_never_close_are_told_with_the_largest_load(place):
+def test_grooves_that_never_close_are_stated_with_the_largest_load(place):
     """Full contact of ridges needs P = πE*D/λ: more than E* of deep ones."""
     ridges = 8e-6 * np.repeat(np.cos(2 * np.pi * np.arange(32) / 32)[:, None], 8, axis=1)
     np.save(place / "deep.npy", ridges)
     assert math.pi * 8e-6 / (32 * 0.5e-6) > 1
     deep = ["--set", f"geometry.surface={place / 'deep.npy'}", "--set", "geometry.spacing=0.5 um"]
-    told = asked("leakage", place / "seal.toml", "--out", place / "deep", *deep)
-    assert told["quantities"]["seals_direct_y"]["value"] == 0
-    assert told["quantities"]["seals_direct_x"]["value"] == 1
-    warnings = " ".join(told["provenance"]["warnings"])
+    stated = asked("leakage", place / "seal.toml", "--out", place / "deep", *deep)
+    assert stated["quantities"]["seals_direct_y"]["value"] == 0
+    assert stated["quantities"]["seals_direct_x"]["value"] == 1
+    warnings = " ".join(stated["provenance"]["warnings"])
     assert "single period between reservoirs, y: stays open up to 13.33 MPa" in warnings
     assert "single period between reservoirs, x: is sealed under any load" in warnings
-    assert told["series"][-1]["load"] <= 1e7 / 0.75 * (1 + 1e-9)
+    assert stated["series"][-1]["load"] <= 1e7 / 0.75 * (1 + 1e-9)
 
 
 def test_joints_that_seal_are_warned_of(place):
@@ -225,8 +225,8 @@ def test_joints_that_seal_are_warned_of(place):
     heights[-2:] += 6e-7
     np.save(place / "joint.npy", heights)
     bad = ["--set", f"geometry.surface={place / 'joint.npy'}", "--set", "geometry.spacing=0.5 um"]
-    told = asked("leakage", place / "seal.toml", "--out", place / "joint", *bad)
-    warnings = " ".join(told["provenance"]["warnings"])
+    stated = asked("leakage", place / "seal.toml", "--out", place / "joint", *bad)
+    warnings = " ".join(stated["provenance"]["warnings"])
     assert "seals first at the edge in x" in warnings
 
 

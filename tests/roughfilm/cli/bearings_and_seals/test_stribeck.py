@@ -71,7 +71,7 @@ def test_walls_part_between_the_points_that_touch_and_those_that_do_not(swept):
     assert lifts[1] > lifts[0]
 
 
-def test_files_hold_what_was_told(swept):
+def test_files_hold_what_was_printed(swept):
     out, entries = swept
     points = [point for curve in entries["curves"] for point in curve["points"]]
     assert json.loads((out / "stribeck.json").read_text())["curves"] == entries["curves"]
@@ -124,7 +124,7 @@ def test_a_sweep_that_is_stopped_goes_on(swept, tmp_path, monkeypatch):
     assert entries["numerics"]["points_found"] == stopped
 
 
-def test_a_table_that_does_not_reach_is_extended_and_that_is_told(swept, tmp_path):
+def test_a_table_that_does_not_reach_is_extended_and_that_is_stated(swept, tmp_path):
     """A table of light loads alone: the land carries less by it than is asked."""
     whole = load_table(swept[0] / "table.h5")
     series = tmp_path / "C.h5"

@@ -27,16 +27,16 @@ def groove(pocket_file):
 def test_advice_as_json(run, groove):
     found = run("advise", *groove, "--want", "load", "--within", "10%", "--json")
     assert found.exit_code == 0
-    told = json.loads(found.stdout)
-    assert told["model"] in ("inertial_reynolds", "film", "film_slope")
-    assert 0 < told["expected_error"] <= 0.10
-    assert 0 < told["expected_cpu_s"] < 1
-    assert told["enough"]
-    assert any(reason.startswith("stokes: not enough: error ") for reason in told["reasons"])
-    chosen = next(one for one in told["considered"] if one["verdict"] == "chosen")
+    stated = json.loads(found.stdout)
+    assert stated["model"] in ("inertial_reynolds", "film", "film_slope")
+    assert 0 < stated["expected_error"] <= 0.10
+    assert 0 < stated["expected_cpu_s"] < 1
+    assert stated["enough"]
+    assert any(reason.startswith("stokes: not enough: error ") for reason in stated["reasons"])
+    chosen = next(one for one in stated["considered"] if one["verdict"] == "chosen")
     assert chosen["a_priori"]["error"] > 0
     assert chosen["a_posteriori"]["reasons"], "the two sources are kept apart"
-    assert told["numbers"]["reynolds_number"] == 5
+    assert stated["numbers"]["reynolds_number"] == 5
 
 
 def test_advice_for_people(run, groove):
@@ -67,9 +67,9 @@ def test_solve_takes_what_is_advised_and_keeps_why(run, groove, tmp_path):
     advised = json.loads(run("advise", *groove, "--within", "10%", "--json").stdout)
     found = run("solve", *groove, "--within", "10%", "--json", "--out", file)
     assert found.exit_code == 0
-    told = json.loads(found.stdout)
-    assert told["model"] == advised["model"]
-    assert told["numerics"]["resolution"] == advised["resolution"]
+    stated = json.loads(found.stdout)
+    assert stated["model"] == advised["model"]
+    assert stated["numerics"]["resolution"] == advised["resolution"]
     assert load(file).provenance["advice"]["within"] == 0.1
 
 
@@ -83,9 +83,9 @@ def test_a_flat_surface_has_no_numbers_and_is_judged_all_the_same(run, tmp_path,
     for want in wants:
         found = run("advise", f"{SCENES}/{scene}.toml", *flat, "--within", "5%", "--want", want, "--json")
         assert found.exit_code == 0, found.stderr
-        told = json.loads(found.stdout)
-        assert told["numbers"] == {}
-        assert told["expected_error"] <= 0.05
+        stated = json.loads(found.stdout)
+        assert stated["numbers"] == {}
+        assert stated["expected_error"] <= 0.05
     assert "numbers of the scene" not in run("advise", f"{SCENES}/{scene}.toml", *flat, "--within", "5%").stdout
 
 
@@ -93,25 +93,25 @@ def test_a_lubricant_that_boils_above_ambient_is_judged(run):
     pressures = {"lubricant.cavitation_pressure": "10kPa", "boundary.inlet.pressure": "1MPa"}
     sets = [text for key, value in pressures.items() for text in ("--set", f"{key}={value}")]
     boiling = [f"{SCENES}/parabolic_slider.toml", *sets, "--set", "boundary.outlet.pressure=1MPa"]
-    told = json.loads(run("advise", *boiling, "--within", "5%", "--json").stdout)
-    assert told["numbers"]["cavitation_number"] < 0
-    assert told["model"] == "reynolds_cavitating"
+    stated = json.loads(run("advise", *boiling, "--within", "5%", "--json").stdout)
+    assert stated["numbers"]["cavitation_number"] < 0
+    assert stated["model"] == "reynolds_cavitating"
 
 
 def test_it_says_when_none_will_do(run):
     asked = [f"{SCENES}/parabolic_slider.toml", "--within", "1e-13"]
     found = run("advise", *asked, "--json")
     assert found.exit_code == NOT_CONVERGED
-    told = json.loads(found.stdout)
-    assert (told["enough"], told["model"]) == (False, None)
-    assert told["nearest"]
+    stated = json.loads(found.stdout)
+    assert (stated["enough"], stated["model"]) == (False, None)
+    assert stated["nearest"]
     found = run("solve", *asked)
     assert found.exit_code == NOT_CONVERGED
     assert "no model here is known to give the load within" in found.stderr.replace("\n", " ")
 
 
 @pytest.mark.parametrize(
-    ("options", "told"),
+    ("options", "stated"),
     [
         (["--within", "much"], "--within: got 'much'"),
         (["--within", "-5%"], "--within: got '-5%'"),
@@ -123,8 +123,8 @@ def test_it_says_when_none_will_do(run):
         (["--resolution", "50"], "--resolution: needs --model"),
     ],
 )
-def test_what_cannot_be_asked_is_refused(run, pocket_file, options, told):
+def test_what_cannot_be_asked_is_refused(run, pocket_file, options, stated):
     found = run("solve", pocket_file, *options)
     assert found.exit_code == BAD_INPUT
-    assert told in found.stderr.replace("\n", " ")
+    assert stated in found.stderr.replace("\n", " ")
     assert found.stderr.count("error:") == 1

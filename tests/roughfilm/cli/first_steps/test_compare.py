@@ -230,7 +230,7 @@ def test_a_fourth_grid_is_finer_and_becomes_the_reference(pocket_file, tmp_path,
     assert finest.stat().st_mtime_ns == stamp
 
 
-def test_a_grid_that_fails_is_told_in_one_line_and_the_others_are_judged(pocket_file, tmp_path, monkeypatch, capsys):
+def test_a_grid_that_fails_is_stated_in_one_line_and_the_others_are_judged(pocket_file, tmp_path, monkeypatch, capsys):
     sampled(monkeypatch, fails_at=8)
     compare.command(pocket_file, out=tmp_path)
     captured = capsys.readouterr()
@@ -250,7 +250,7 @@ def test_without_a_formal_order_there_is_no_grid_convergence(pocket_file, tmp_pa
     assert "Grid convergence" not in (tmp_path / "report.html").read_text()
 
 
-def test_a_result_that_tells_more_doubt_than_its_grids_is_believed():
+def test_a_result_that_states_more_doubt_than_its_grids_is_believed():
     scene = load_scene(GAP)
     found = find("rough_gap", "slope_corrected").solve(scene)
     value, bar = found["A11"].value, found["A11"].uncertainty
@@ -259,7 +259,7 @@ def test_a_result_that_tells_more_doubt_than_its_grids_is_believed():
         assert compare._uncertainty(found, study)["A11"] == pytest.approx(expected / value)
 
 
-def test_models_that_the_reference_does_not_tell_apart_are_named(pocket_file, tmp_path, monkeypatch, capsys):
+def test_models_that_the_reference_does_not_separate_are_named(pocket_file, tmp_path, monkeypatch, capsys):
     """A shallow wide groove at 50 cells: film and film_slope differ by far less than the uncertainty of these grids."""
     coarse = Resolutions(least=10, most=400, default=50, series=(25, 50))
     own = find("pocket", "film"), replace(find("pocket", "film_slope"), resolutions=coarse)

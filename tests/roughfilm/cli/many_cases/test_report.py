@@ -80,7 +80,7 @@ def test_the_report_orders_the_errors_of_every_model(finished, reported):
     assert not re.findall(r"(?:src|href)=\"http", page)
 
 
-def test_a_reference_that_leaves_effects_out_ranks_only_what_it_can_tell_apart(reported):
+def test_a_reference_that_leaves_effects_out_ranks_only_what_it_can_state_apart(reported):
     """film_slope is itself off by some per cent by the laws; film differs from it by less in most cases."""
     entries, page = reported
     bar = entries["reference_uncertainty"]["load_plus"]

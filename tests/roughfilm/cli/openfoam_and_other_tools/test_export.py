@@ -22,19 +22,19 @@ def run():
     return call
 
 
-def test_a_gap_is_written_and_json_tells_its_volume(run, tmp_path):
+def test_a_gap_is_written_and_json_states_its_volume(run, tmp_path):
     out = tmp_path / "gap.vtu"
     done = run(SCENES / "rough_gap.toml", "--out", out, "--json", "--resolution", 32, "--set", "geometry.mean_gap=8um")
     assert done.exit_code == 0
     assert not done.stderr
-    told = json.loads(done.stdout)
+    stated = json.loads(done.stdout)
     found = meshio.read(out)
     length, width = np.ptp(found.points[:, 0]), np.ptp(found.points[:, 1])
     assert length == pytest.approx(50e-6)
-    assert told["quantities"] == {"volume": {"value": pytest.approx(length * width * 8e-6), "unit": "m^3"}}
-    assert told["numerics"]["cells"] == len(found.cells_dict["hexahedron"])
-    assert told["provenance"]["what"] == "gap"
-    assert told["provenance"]["data"] == ["gap (m)"]
+    assert stated["quantities"] == {"volume": {"value": pytest.approx(length * width * 8e-6), "unit": "m^3"}}
+    assert stated["numerics"]["cells"] == len(found.cells_dict["hexahedron"])
+    assert stated["provenance"]["what"] == "gap"
+    assert stated["provenance"]["data"] == ["gap (m)"]
 
 
 def test_a_wall_and_a_closed_gap_go_to_stl(run, tmp_path):
@@ -60,10 +60,10 @@ def test_a_result_is_written(run, tmp_path):
     solve = ["solve", str(SCENES / "pocket.toml"), "--model", "film", "--resolution", "24", "--out"]
     assert CliRunner().invoke(app, [*solve, str(tmp_path / "film.h5")]).exit_code == 0
     done = run(tmp_path / "film.h5", "--out", tmp_path / "film.vtu", "--json")
-    told = json.loads(done.stdout)
+    stated = json.loads(done.stdout)
     assert {"cell_pressure (Pa)", "cell_velocity (m/s)"} == set(meshio.read(tmp_path / "film.vtu").cell_data)
-    assert "position (m)" in told["provenance"]["left_out"]
-    assert told["provenance"]["model"] == "film"
+    assert "position (m)" in stated["provenance"]["left_out"]
+    assert stated["provenance"]["model"] == "film"
 
 
 @pytest.mark.parametrize(
@@ -88,7 +88,7 @@ def test_positions_of_another_shape_are_refused_in_one_line(run, tmp_path, model
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "stated"),
     [
         (("rough_gap.toml", "--out", "x.obj"), "write .vtu, .stl or .msh"),
         (("pocket.toml", "--out", "x.vtu"), "solve it with --out and export the result"),
@@ -101,9 +101,9 @@ def test_positions_of_another_shape_are_refused_in_one_line(run, tmp_path, model
         (("missing.npy", "--out", "x.vtu"), "no such file"),
     ],
 )
-def test_bad_input_is_one_line(run, arguments, told, tmp_path):
+def test_bad_input_is_one_line(run, arguments, stated, tmp_path):
     done = run(SCENES / arguments[0], *(tmp_path / a if a.startswith("x.") else a for a in arguments[1:]))
     assert done.exit_code == 2
-    assert told in done.stderr.replace("\n", " ")
+    assert stated in done.stderr.replace("\n", " ")
     assert done.stderr.count("error:") == 1
     assert not list(tmp_path.iterdir())

@@ -36,7 +36,7 @@ def pair(tmp_path):
     return paths
 
 
-def test_wear_is_told_as_json_and_stored(run, pair, tmp_path):
+def test_wear_is_stated_as_json_and_stored(run, pair, tmp_path):
     done = run(*pair, "--json", "--out", tmp_path / "wear.h5")
     assert done.exit_code == 0, done.output
     message = json.loads(done.stdout)

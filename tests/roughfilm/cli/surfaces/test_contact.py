@@ -43,7 +43,7 @@ def run(*arguments):
     return CliRunner().invoke(app, ["contact", *map(str, arguments)])
 
 
-def told(*arguments):
+def stated(*arguments):
     done = run(*arguments, "--json")
     assert done.exit_code == 0, done.output
     return json.loads(done.stdout)
@@ -74,7 +74,7 @@ def test_a_wave_opens_as_westergaard_said(wave):
     """h = D cos 2πx/L: sin²(πa/L) = P/p*, p* = πE*D/L, mean gap 2D (cos²ψ/2 + sin²ψ ln sin ψ), ψ = πa/L."""
     stiffness = 1 / ((1 - 0.3**2) / 210e9 + (1 - 0.2**2) / 70e9)
     full = np.pi * stiffness * 1e-7 / (2048 * 0.5e-6)
-    answer = told(
+    answer = stated(
         wave, *STEEL, "--counter-modulus", "70GPa", "--counter-poisson", "0.2", "--spacing", "0.5um",
         "--loads", f"{0.1 * full!r}Pa,{0.3 * full!r}Pa",
     )  # fmt: skip
@@ -91,7 +91,7 @@ def test_a_wave_opens_as_westergaard_said(wave):
 
 
 def test_json_is_one_object_with_every_number_of_every_load(rough):
-    answer = told(rough, *PLASTIC, "--loads", "50MPa..2GPa:4")
+    answer = stated(rough, *PLASTIC, "--loads", "50MPa..2GPa:4")
     assert set(answer) == {"series", "units", "quantities", "numerics", "provenance"}
     assert [row["load"] for row in answer["series"]] == pytest.approx([5e7, 170997594.7, 584803547.6, 2e9])
     assert all(set(row) == NUMBERS for row in answer["series"])
@@ -114,7 +114,7 @@ def test_json_is_one_object_with_every_number_of_every_load(rough):
 
 
 def test_the_file_holds_fields_that_balance_the_load(rough, tmp_path):
-    answer = told(rough, *PLASTIC, "--loads", "0.1..1GPa:3", "--out", tmp_path / "c.h5")
+    answer = stated(rough, *PLASTIC, "--loads", "0.1..1GPa:3", "--out", tmp_path / "c.h5")
     with h5py.File(tmp_path / "c.h5") as file:
         assert file["series/area_fraction"][()] == pytest.approx([row["area_fraction"] for row in answer["series"]])
         for row in answer["series"]:
@@ -127,7 +127,7 @@ def test_the_file_holds_fields_that_balance_the_load(rough, tmp_path):
 
 def test_loads_in_the_file_are_not_solved_again(rough, tmp_path, monkeypatch):
     out = tmp_path / "c.h5"
-    first = told(rough, *PLASTIC, "--loads", "100MPa,1GPa", "--out", out)["series"]
+    first = stated(rough, *PLASTIC, "--loads", "100MPa,1GPa", "--out", out)["series"]
     solve, loads = Press.at, []
 
     def counted(self, load, **options):
@@ -148,7 +148,7 @@ def test_loads_in_the_file_are_not_solved_again(rough, tmp_path, monkeypatch):
 @pytest.mark.parametrize("model", ["elastic_plastic", "persson"])
 def test_another_series_is_never_written_over(rough, tmp_path, model):
     out = tmp_path / "c.h5"
-    told(rough, *PLASTIC, "--loads", "1GPa", "--out", out)
+    stated(rough, *PLASTIC, "--loads", "1GPa", "--out", out)
     before = out.read_bytes()
     done = run(rough, *STEEL, "--hardness", "3GPa", "--loads", "1GPa", "--out", out, "--model", model)
     assert done.exit_code == 2
@@ -177,8 +177,8 @@ def test_a_row_of_heights_has_its_points_along_y(tmp_path):
     heights = np.random.default_rng(5323).normal(scale=1e-7, size=64)
     np.save(tmp_path / "row.npy", heights[None, :])
     np.save(tmp_path / "line.npy", heights)
-    row = told(tmp_path / "row.npy", *STEEL, "--loads", "100MPa", "--spacing", "1um,2um")
-    line = told(tmp_path / "line.npy", *STEEL, "--loads", "100MPa", "--spacing", "2um")
+    row = stated(tmp_path / "row.npy", *STEEL, "--loads", "100MPa", "--spacing", "1um,2um")
+    line = stated(tmp_path / "line.npy", *STEEL, "--loads", "100MPa", "--spacing", "2um")
     assert row["series"][0]["mean_gap"] == line["series"][0]["mean_gap"]
 
 
@@ -240,7 +240,7 @@ def test_killed_at_any_moment_it_goes_on(tmp_path):
     with h5py.File(out) as file:
         assert file["series/load"][()].tolist() == list(kept)
     assert 1 <= len(kept) < 400
-    answer = told(tmp_path / "s.npy", "--spacing", "1um", *PLASTIC, "--loads", f"{kept[-1]!r}Pa", "--out", out)
+    answer = stated(tmp_path / "s.npy", "--spacing", "1um", *PLASTIC, "--loads", f"{kept[-1]!r}Pa", "--out", out)
     assert answer["numerics"]["loads_found"] == 1
     assert sorted(os.listdir(tmp_path)) == ["c.h5", "s.npy"]
 
@@ -258,7 +258,7 @@ def test_people_get_a_table_and_a_page(rough, tmp_path):
 
 
 def test_the_page_begins_with_area_and_gap_at_the_asked_loads(rough, tmp_path):
-    answer = told(rough, *PLASTIC, "--loads", "100MPa,1GPa", "--report", tmp_path / "page.html")
+    answer = stated(rough, *PLASTIC, "--loads", "100MPa,1GPa", "--report", tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text()
     first = page[page.index("<h1>") : page.index("<h2>")]
     last = answer["quantities"]
@@ -287,9 +287,9 @@ def test_the_page_of_a_line_has_a_profile_and_no_map(wave, tmp_path):
 
 
 @pytest.mark.parametrize("model", ["persson", "greenwood_williamson", "bearing_area"])
-def test_statistical_rungs_tell_what_they_can(rough, tmp_path, model):
+def test_statistical_rungs_state_what_they_can(rough, tmp_path, model):
     out = tmp_path / "c.h5"
-    answer = told(
+    answer = stated(
         *(rough, *PLASTIC, "--loads", "40MPa,400MPa", "--model", model), "--out", out, "--report", tmp_path / "p.html"
     )
     row = answer["series"][0]
@@ -304,7 +304,7 @@ def test_statistical_rungs_tell_what_they_can(rough, tmp_path, model):
 
 def test_the_older_algorithm_finds_the_same_contact(rough):
     rows = [
-        told(rough, *PLASTIC, "--loads", "345MPa", "--model", m)["series"][0]
+        stated(rough, *PLASTIC, "--loads", "345MPa", "--model", m)["series"][0]
         for m in ("stanley_kato", "elastic_plastic")
     ]
     for name in ("area_fraction", "plastic_fraction", "mean_gap", "approach"):

@@ -71,7 +71,7 @@ def test_a_level_that_is_not_kept_raises_the_factor():
 def own():
     law = fitted(made(60, 4), [("a",), ("b",)])
     return Table(
-        steps=[Step(kind="k", model="m", towards="n", adds="x", tells="a", left_out={"load": law})],
+        steps=[Step(kind="k", model="m", towards="n", adds="x", measure="a", left_out={"load": law})],
         promises=[Promise(kind="k", model="m", towards="n", laws={"load": law})],
         grids=[Grid(kind="k", model="m", laws={"load": law})],
         provenance={"fits": {"k": {"scenes": 60}}},
@@ -86,7 +86,7 @@ def test_the_table_is_read_back_as_it_was_written(own, tmp_path):
 
 
 def test_the_laws_of_one_kind_are_replaced_alone(own):
-    other = Table(steps=[Step(kind="other", model="m", towards="n", adds="x", tells="a")], grids=[], provenance={})
+    other = Table(steps=[Step(kind="other", model="m", towards="n", adds="x", measure="a")], grids=[], provenance={})
     both = replaced(replaced(other, "k", own, {"scenes": 60}), "k", own, {"scenes": 61})
     assert [one.kind for one in both.steps] == ["other", "k"]
     assert (len(both.promises), len(both.grids)) == (1, 1)
