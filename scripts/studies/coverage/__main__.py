@@ -75,6 +75,7 @@ def with_truth(kind: str, seed: int, scene: Scene) -> Judged:
         truth={name: (value, truth.uncertainty[name]) for name, value in truth.values.items()},
         own=truth.own,
         by=truth.by,
+        runs=truth.runs,
         method=truth.method,
         truth_warnings=truth.warnings,
         truth_cpu_s=time.process_time() - begun,

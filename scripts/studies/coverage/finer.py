@@ -117,6 +117,8 @@ def extrapolated(scene: Scene, model: Model, solve: Solver) -> Values:
     """
     base = judged_resolution(model, scene)
     factor, runs, found = 1, list[Result](), dict[str, tuple[float, float]]()
+    if model.cost(scene, base * 2 ** (LEAST - 1)) > MAX_NEEDED_S:
+        return found
     while factor <= MAX_FACTOR:
         if factor > 1 and model.cost(scene, base * factor) > (MAX_CPU_S if len(runs) >= LEAST else MAX_NEEDED_S):
             break

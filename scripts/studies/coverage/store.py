@@ -47,8 +47,8 @@ class Advised:
 class Judged:
     """A random scene with its truth, as (value, uncertainty) by quantity, and the answers of models by name.
 
-    ``own`` is the truth of the own equations of a model, by its name, and ``by`` the model that gave the truth of the
-    scene (see ``Truth``).
+    ``own`` is the truth of the own equations of a model, by its name, ``by`` the model that gave the truth of the
+    scene, and ``runs`` its quantities by resolution (see ``Truth``).
     ``failure`` is the reason why there is no truth. ``code`` is a digest of the code and the laws behind the answers.
     """
 
@@ -58,6 +58,7 @@ class Judged:
     truth: Mapping[str, tuple[float, float]]
     own: Mapping[str, Mapping[str, tuple[float, float]]] = field(default_factory=dict)
     by: str = ""
+    runs: Mapping[int, Mapping[str, float]] = field(default_factory=dict)
     method: str = ""
     truth_warnings: tuple[str, ...] = ()
     truth_cpu_s: float = 0.0
@@ -94,6 +95,7 @@ def read(path: Path) -> dict[int, Judged]:
         entries["truth"] = {name: tuple(pair) for name, pair in entries["truth"].items()}
         own = entries.get("own", {})
         entries["own"] = {name: {q: tuple(pair) for q, pair in one.items()} for name, one in own.items()}
+        entries["runs"] = {int(resolution): values for resolution, values in entries.get("runs", {}).items()}
         answers = {name: {**one, "warnings": tuple(one["warnings"])} for name, one in entries["models"].items()}
         entries["models"] = {name: Answer(**one) for name, one in answers.items()}
         entries["advice"] = tuple(Advised(**one) for one in entries.get("advice", ()))

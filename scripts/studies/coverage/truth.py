@@ -23,6 +23,7 @@ class Truth:
         are not judged.
     warnings : one sentence for each reason why the solution may be wrong.
     by : name of the model whose finer solutions are the truth, by which it is not judged; empty for other methods.
+    runs : the quantities by that model at each of its resolutions, if laws are fitted to them.
     """
 
     values: Mapping[str, float]
@@ -31,6 +32,7 @@ class Truth:
     own: Mapping[str, Mapping[str, tuple[float, float]]] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     by: str = ""
+    runs: Mapping[int, Mapping[str, float]] = field(default_factory=dict)
 
 
 def kinds_with_truth() -> tuple[str, ...]:

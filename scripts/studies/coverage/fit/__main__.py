@@ -129,7 +129,7 @@ def command(
         if not again:
             with counted(len(seeds[:refined]) * len(names)) as advance:
                 resolutions.refine(kind, names, seeds[:refined], out, advance)
-        own = fit(kind, scenes, resolutions.read(resolutions.path_of(out, kind)))
+        own = fit(kind, scenes, resolutions.read(out, kind))
         origin = {"scenes": len(seeds), "seeds": [seeds[0], seeds[-1]], "code": code()}
         known = replaced(known, kind, own, origin)
         output.print(shown(own))

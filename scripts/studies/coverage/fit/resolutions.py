@@ -32,10 +32,15 @@ def path_of(out: Path, kind: str) -> Path:
     return out / f"resolutions_{kind}.jsonl"
 
 
-def read(path: Path) -> dict[tuple[int, str], Refinement]:
-    """Return the refinements in a file by seed and model."""
-    found = {}
-    for entries in store.lines(path):
+def read(out: Path, kind: str) -> dict[tuple[int, str], Refinement]:
+    """Return the refinements of a kind by seed and model: the runs behind the truths of its scenes, and the others."""
+    judged = store.read(store.path_of(out, kind)).values()
+    found = {
+        (one.seed, one.by): Refinement(kind=kind, seed=one.seed, model=one.by, values=one.runs)
+        for one in judged
+        if one.runs
+    }
+    for entries in store.lines(path_of(out, kind)):
         values = {int(resolution): quantities for resolution, quantities in entries["values"].items()}
         found[entries["seed"], entries["model"]] = Refinement(**{**entries, "values": values})
     return found
@@ -51,9 +56,9 @@ def resolutions_of(model: Model, scene: Scene) -> tuple[int, ...]:
 
 
 def refine(kind: str, names: Sequence[str], seeds: Sequence[int], out: Path, advance: Callable[[str], None]) -> None:
-    """Solve what the file lacks of these models, and append it."""
+    """Solve what the files lack of these models, and append it."""
     path = path_of(out, kind)
-    known = read(path)
+    known = read(out, kind)
     for seed in seeds:
         scene = drawn(kind, seed)
         for model in (find(scene.kind, name) for name in names):

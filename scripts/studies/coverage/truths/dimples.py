@@ -1,4 +1,4 @@
-"""The truth of a cell in plan: Navier-Stokes flow by OpenFOAM on three grids, extrapolated.
+"""The truth of a cell in plan: Navier-Stokes flow by OpenFOAM on two grids, extrapolated at second order.
 
 The models that run in this process are judged by their own equations on finer grids (``finer.py``).
 """
@@ -14,6 +14,9 @@ from scripts.studies.coverage.truth import Truth
 
 REFERENCE = "navier_stokes"
 
+GRIDS = 2
+"""Number of the finest grids that are extrapolated; the coarsest of the series does not resolve narrow walls."""
+
 
 def truth(scene: Pocket) -> Truth:
     """Return the quantities of a cell by Navier-Stokes flow, with the uncertainty of their extrapolation.
@@ -28,10 +31,12 @@ def truth(scene: Pocket) -> Truth:
     return Truth(
         values={name: value for name, (value, _) in found.items()},
         uncertainty={name: uncertainty for name, (_, uncertainty) in found.items()},
-        method=f"{REFERENCE} on {', '.join(str(run.numerics.resolution) for run in runs)} columns, extrapolated",
+        method=f"{REFERENCE} on {' and '.join(str(run.numerics.resolution) for run in runs[-GRIDS:])} columns, "
+        "extrapolated",
         own=own,
         warnings=runs[-1].warnings,
         by=REFERENCE,
+        runs={run.numerics.resolution: {name: one.value for name, one in run.quantities.items()} for run in runs},
     )
 
 
@@ -45,18 +50,18 @@ def runs_of(scene: Pocket) -> list[Result]:
             continue
         except UnavailableError as error:
             raise ConvergenceError(str(error)) from error
-    if len(runs) < 2:
-        raise ConvergenceError(f"{REFERENCE} converges on {len(runs)} grids; two are needed")
+    if len(runs) < GRIDS:
+        raise ConvergenceError(f"{REFERENCE} converges on {len(runs)} grids; {GRIDS} are needed")
     return runs
 
 
 def converged(runs: list[Result], name: str) -> tuple[float, float]:
     """Return the extrapolated value of a quantity and its uncertainty, at least that which the finest run states."""
-    values, last = [run.quantities[name].value for run in runs], runs[-1]
+    used, last = runs[-GRIDS:], runs[-1]
     limit = converge(
-        [run.numerics.resolution for run in runs],
-        values,
+        [run.numerics.resolution for run in used],
+        [run.quantities[name].value for run in used],
         formal_order=2,
-        noise=last.numerics.residual * abs(values[-1]),
+        noise=last.numerics.residual * abs(last.quantities[name].value),
     )
     return limit.value, max(limit.uncertainty, last.quantities[name].uncertainty or 0.0)

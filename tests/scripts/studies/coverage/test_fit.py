@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from roughfilm.rom.advice.laws import Grid, Promise, Step, Table, read_table
+from scripts.studies.coverage import store
+from scripts.studies.coverage.fit import resolutions
 from scripts.studies.coverage.fit.__main__ import replaced
 from scripts.studies.coverage.fit.laws_file import write_table
 from scripts.studies.coverage.fit.regression import calibration, fitted
@@ -91,3 +93,15 @@ def test_the_laws_of_one_kind_are_replaced_alone(own):
     assert [one.kind for one in both.steps] == ["other", "k"]
     assert (len(both.promises), len(both.grids)) == (1, 1)
     assert both.provenance["fits"] == {"k": {"scenes": 61}}
+
+
+def test_the_runs_behind_a_truth_are_refinements_beside_those_in_their_own_file(tmp_path):
+    truth = {"scene": {}, "truth": {}, "by": "fine", "runs": {40: {"load": 2.0}, 80: {"load": 2.5}}}
+    store.append(store.path_of(tmp_path, "k"), store.Judged(kind="k", seed=7, **truth))
+    path = resolutions.path_of(tmp_path, "k")
+    path.write_text('{"kind": "k", "seed": 7, "model": "other", "values": {"20": {"load": 1.0}}}\n')
+    found = resolutions.read(tmp_path, "k")
+    assert {key: one.values for key, one in found.items()} == {
+        (7, "fine"): {40: {"load": 2.0}, 80: {"load": 2.5}},
+        (7, "other"): {20: {"load": 1.0}},
+    }
