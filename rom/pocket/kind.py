@@ -68,7 +68,7 @@ def scale(values: Mapping[str, Any], quantity: str) -> Any:
     size = np.abs(values[quantity])
     if quantity in ("pressure_max_plus", "pressure_min_plus"):
         return np.maximum(size, MIN_PRESSURE_SCALE * largest_pressure(values))
-    if quantity != "load_plus":
+    if quantity not in ("load_plus", "load_from_corner_plus"):
         return size
     pressure = largest_pressure(values)
     return np.where(size > MIN_LOAD_SCALE * pressure, size, pressure)

@@ -1,4 +1,4 @@
-"""The truth of a cell in plan: Navier-Stokes flow by OpenFOAM on two grids, extrapolated at second order.
+"""The truth of a cell in plan: Navier-Stokes flow by OpenFOAM on three grids, extrapolated.
 
 The models that run in this process are judged by their own equations on finer grids (``finer.py``).
 """
@@ -14,8 +14,8 @@ from scripts.studies.coverage.truth import Truth
 
 REFERENCE = "navier_stokes"
 
-GRIDS = 2
-"""Number of the finest grids that are extrapolated; the coarsest of the series does not resolve narrow walls."""
+FINEST = 2
+"""Number of the finest grids that are extrapolated at second order where all of them do not converge."""
 
 
 def truth(scene: Pocket) -> Truth:
@@ -31,8 +31,7 @@ def truth(scene: Pocket) -> Truth:
     return Truth(
         values={name: value for name, (value, _) in found.items()},
         uncertainty={name: uncertainty for name, (_, uncertainty) in found.items()},
-        method=f"{REFERENCE} on {' and '.join(str(run.numerics.resolution) for run in runs[-GRIDS:])} columns, "
-        "extrapolated",
+        method=f"{REFERENCE} on {', '.join(str(run.numerics.resolution) for run in runs)} columns, extrapolated",
         own=own,
         warnings=runs[-1].warnings,
         by=REFERENCE,
@@ -50,18 +49,26 @@ def runs_of(scene: Pocket) -> list[Result]:
             continue
         except UnavailableError as error:
             raise ConvergenceError(str(error)) from error
-    if len(runs) < GRIDS:
-        raise ConvergenceError(f"{REFERENCE} converges on {len(runs)} grids; {GRIDS} are needed")
+    if len(runs) < FINEST:
+        raise ConvergenceError(f"{REFERENCE} converges on {len(runs)} grids; {FINEST} are needed")
     return runs
 
 
 def converged(runs: list[Result], name: str) -> tuple[float, float]:
-    """Return the extrapolated value of a quantity and its uncertainty, at least that which the finest run states."""
-    used, last = runs[-GRIDS:], runs[-1]
-    limit = converge(
-        [run.numerics.resolution for run in used],
-        [run.quantities[name].value for run in used],
-        formal_order=2,
-        noise=last.numerics.residual * abs(last.quantities[name].value),
-    )
+    """Return the extrapolated value of a quantity and its uncertainty, at least that which the finest run states.
+
+    Of all grids at their observed order and of the finest ones at second order, the narrower estimate is taken: the
+    coarsest grid often does not resolve narrow walls, and its values do not converge then.
+    """
+    last = runs[-1]
+    limits = [
+        converge(
+            [run.numerics.resolution for run in used],
+            [run.quantities[name].value for run in used],
+            formal_order=2,
+            noise=last.numerics.residual * abs(last.quantities[name].value),
+        )
+        for used in (runs, runs[-FINEST:])
+    ]
+    limit = min(limits, key=lambda one: one.uncertainty)
     return limit.value, max(limit.uncertainty, last.quantities[name].uncertainty or 0.0)
