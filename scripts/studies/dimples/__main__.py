@@ -1,7 +1,7 @@
 """Find the best dimple for load by each model, and the load that is lost by choosing with a cheap one.
 
-python -m scripts.studies.dimples DIR --out OUT, where DIR holds the finished batch of
-scripts/examples/studies/dimples.toml.
+python -m scripts.studies.dimples DIR... --out OUT, where each DIR holds a finished batch: of
+scripts/examples/studies/dimples.toml, and of deep_dimples.toml beside it.
 """
 
 from pathlib import Path
@@ -16,7 +16,7 @@ from roughfilm.rom.studies.sweep import read_sweep
 from roughfilm.rom.studies.table import read_table
 from roughfilm.terminal.console import AsJson, in_one_line, run_alone
 from scripts.studies.dimples import figures
-from scripts.studies.dimples.data import FAMILIES, MIN_LOAD, REFERENCE, Dimples, dimples_of
+from scripts.studies.dimples.data import FAMILIES, MIN_LOAD, REFERENCE, Dimples, dimples_of, joined
 from scripts.studies.study import Out, publish
 
 SHALLOW = 1.0
@@ -25,12 +25,16 @@ SHALLOW = 1.0
 
 @in_one_line
 def command(
-    directory: Annotated[Path, typer.Argument(metavar="DIR", help="Directory of the finished batch of dimples.toml.")],
+    directories: Annotated[
+        list[Path],
+        typer.Argument(metavar="DIR...", help="Directories of the batches of dimples.toml, deep_dimples.toml."),
+    ],
     out: Out,
     as_json: AsJson = False,
 ) -> None:
     """Compare the dimples that each model finds best, and the errors of the loads."""
-    dimples = dimples_of(read_sweep(read_table(directory / "table.h5"), "pocket"))
+    table = joined([read_table(directory / "table.h5") for directory in directories])
+    dimples = dimples_of(read_sweep(table, "pocket"))
     choices = {
         number: {
             family: {model: dimples.choice(family, number, model) for model in dimples.settings} for family in FAMILIES

@@ -1,7 +1,8 @@
 """The sweep of dimples by families of shapes, and the choice of a dimple by each model."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,7 @@ ORDER = 2
 """Order in the size of the columns at which the load of the reference converges on similar meshes."""
 
 MIN_CHOICE = 1e-6
-"""Load over that of the best dimple below which a model finds no load: what remains is round-off."""
+"""Load over that by the reference below which a model finds no load: what remains is round-off."""
 
 MIN_LOAD = 0.05
 """Load over the largest pressure below which the load is a difference of larger numbers and errors are left out."""
@@ -34,10 +35,10 @@ class Choice:
     Attributes
     ----------
     covered, depth : the covered part of the cell and the depth over the film thickness of the best dimple.
-    deepest : whether no deeper dimple was tried.
+    deepest : whether the model solved no deeper dimple.
     load : its load by the model.
     true : its load by the reference.
-    lost : relative loss of load, by the reference, against the best dimple by the reference.
+    lost : relative loss of load, by the reference, against the best of the dimples that the model solved.
     """
 
     covered: float
@@ -97,10 +98,11 @@ class Dimples:
     def choice(self, family: str, number: float, model: str) -> Choice | None:
         """The best dimple by a model; None if it solved no case or finds no load."""
         cases = self.cases(family, number)
+        cases = cases[np.isfinite(self.load(model)[cases])]
         own, true = self.load(model)[cases], self.load(REFERENCE)[cases]
-        if not (own > MIN_CHOICE * true.max()).any():
+        if not (own > MIN_CHOICE * true).any():
             return None
-        best = int(np.nanargmax(own))
+        best = int(np.argmax(own))
         covered, depth = (self.sweep.given[name][cases] for name in ("covered", "depth_plus"))
         return Choice(
             covered=float(covered[best]),
@@ -118,6 +120,20 @@ class Dimples:
         own = cases & (np.abs(load) > MIN_LOAD * pressure)
         relative = np.abs(self.load(model)[own] / load[own] - 1)
         return np.asarray(relative[np.isfinite(relative)])
+
+
+def joined(tables: Sequence[Mapping[str, NDArray[Any]]]) -> dict[str, NDArray[Any]]:
+    """The rows of several tables in one; NaN or "" in columns that a table does not have."""
+    columns = {name: column.dtype for table in tables for name, column in table.items()}
+    return {
+        name: np.concatenate(
+            [
+                table.get(name, np.full(len(table["case"]), np.nan if kind.kind == "f" else "", dtype=kind))
+                for table in tables
+            ]
+        )
+        for name, kind in columns.items()
+    }
 
 
 def dimples_of(sweep: Sweep) -> Dimples:

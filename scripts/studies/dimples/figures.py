@@ -29,7 +29,7 @@ def loads(dimples: Dimples, number: float) -> Figure:
                         given["depth_plus"][own], dimples.load(model)[own], style, color=colour, label=label, marker="."
                     )
         axes.set_title(family, fontsize=9)
-        axes.legend(fontsize=7)
+        axes.legend(fontsize=6, framealpha=0.8)
     for axes in panels[-1]:
         axes.set_xlabel("depth over film thickness")
     for axes in panels[:, 0]:
