@@ -50,12 +50,14 @@ class Law:
     reach : smallest and largest value of each number in the scenes of the fit.
     scenes : number of scenes in the fit.
     spread : ratio of the bound to the median error.
+    within : names of numbers that are in no term, above whose range the law is not known.
     """
 
     terms: Sequence[Term]
     reach: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     scenes: int = 0
     spread: float = 1.0
+    within: Sequence[str] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -64,7 +66,7 @@ class Law:
 
     def has_numbers(self, numbers: Numbers) -> bool:
         """Whether a scene has all numbers of the law."""
-        return set(self.names) <= numbers.keys()
+        return {*self.names, *self.within} <= numbers.keys()
 
     def error(self, numbers: Numbers, follows: Container[str] = ()) -> float:
         """The largest expected error over the size of the quantity; infinite for a number that is negative or NaN.
@@ -90,8 +92,8 @@ class Law:
         Effects vanish as the numbers of a scene go to 0, so that this side is above the range, and below it if a
         power is negative.
         """
-        for name in self.names:
-            powers = [term.powers[name] for term in self.terms if name in term.powers]
+        for name in dict.fromkeys((*self.names, *self.within)):
+            powers = [term.powers[name] for term in self.terms if name in term.powers] or [1.0]
             least, greatest = self.reach.get(name, (0.0, math.inf))
             above, below = numbers[name] > RANGE_FACTOR * greatest, numbers[name] < least / RANGE_FACTOR
             if (above and (max(powers) > 0 or name not in follows)) or (below and min(powers) < 0):
@@ -204,6 +206,7 @@ def _law(entries: Mapping[str, Any]) -> Law:
         reach={name: (least, most) for name, (least, most) in entries["reach"].items()},
         scenes=entries.get("scenes", 0),
         spread=entries.get("spread", 1.0),
+        within=tuple(entries.get("within", ())),
     )
 
 

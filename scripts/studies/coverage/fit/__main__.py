@@ -4,7 +4,7 @@ The laws of a kind are written into rom/advice/laws.toml, where they replace all
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Annotated
 
@@ -20,7 +20,7 @@ from scripts.studies.coverage.__main__ import chosen
 from scripts.studies.coverage.fit import resolutions, rows
 from scripts.studies.coverage.fit.laws_file import OWN_FILE, text_of, write_table
 from scripts.studies.coverage.fit.plans import PROMISES, RESOLUTIONS, STEPS, Terms
-from scripts.studies.coverage.fit.regression import fitted
+from scripts.studies.coverage.fit.regression import RIDGE, fitted
 from scripts.studies.coverage.fit.rows import FitScene, Refinements, Rows
 from scripts.studies.study import Out, counted
 
@@ -30,17 +30,29 @@ MIN_SCENES = 20
 COMMAND = "python -m scripts.studies.coverage.fit --out OUT"
 
 
-def laws(kind: str, terms: Terms, errors: Callable[[str], Rows]) -> dict[str, Law]:
-    """Return the laws of all quantities of a kind that have enough errors, which ``errors(quantity)`` returns."""
-    names, found = {name for term in terms for name in term}, {}
+def laws(
+    kind: str,
+    terms: Terms,
+    errors: Callable[[str], Rows],
+    *,
+    within: Sequence[str] = (),
+    above: Mapping[str, float] | None = None,
+    ridge: float = RIDGE,
+) -> dict[str, Law]:
+    """Return the laws of all quantities of a kind that have enough errors, which ``errors(quantity)`` returns.
+
+    The other arguments are those of a :class:`scripts.studies.coverage.fit.plans.PlannedPromise`.
+    """
+    least = {name: 0.0 for term in terms for name in term} | dict.fromkeys(within, 0.0) | dict(above or {})
+    found = {}
     for quantity in kind_of_laws(kind).titles if terms else ():
         usable = [
             (numbers, error)
             for numbers, error in errors(quantity)
-            if error < math.inf and all(0 < numbers.get(name, 0) < math.inf for name in names)
+            if error < math.inf and all(limit < numbers.get(name, 0) < math.inf for name, limit in least.items())
         ]
         if len(usable) >= MIN_SCENES:
-            found[quantity] = fitted(usable, terms)
+            found[quantity] = fitted(usable, terms, within=within, ridge=ridge)
     return found
 
 
@@ -65,7 +77,14 @@ def fit(kind: str, scenes: Mapping[int, FitScene], refinements: Refinements) -> 
             kind=kind,
             model=model,
             towards=plan.towards,
-            laws=laws(kind, plan.terms, partial(rows.promised, scenes, refinements, model, plan.towards)),
+            laws=laws(
+                kind,
+                plan.terms,
+                partial(rows.promised, scenes, refinements, model, plan.towards),
+                within=plan.within,
+                above=plan.above,
+                ridge=plan.ridge,
+            ),
         )
         for plan in PROMISES
         if plan.kind == kind

@@ -39,7 +39,8 @@ def _lines(entries: Mapping[str, Any]) -> list[str]:
 
 
 def _plain(law: Law) -> dict[str, Any]:
-    return {**asdict(law), "terms": [asdict(term) for term in law.terms]}
+    entries = {**asdict(law), "terms": [asdict(term) for term in law.terms], "within": list(law.within)}
+    return {name: value for name, value in entries.items() if value or name != "within"}
 
 
 def text_of(law: Law) -> str:

@@ -2,9 +2,11 @@
 
 import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+from scripts.studies.coverage.fit.regression import RIDGE
 
 Terms = tuple[tuple[str, ...], ...]
 """The names of the numbers in each term of a law."""
@@ -29,12 +31,22 @@ class PlannedStep:
 
 @dataclass(frozen=True, kw_only=True)
 class PlannedPromise:
-    """Promises of some models without their laws, towards the same model; see ``roughfilm.rom.advice.laws.Promise``."""
+    """Promises of some models without their laws, towards the same model; see ``roughfilm.rom.advice.laws.Promise``.
+
+    Attributes
+    ----------
+    within : numbers that are in no term, above whose range the laws are not known.
+    above : numbers with a limit; scenes below it are left out of the fit.
+    ridge : weight of the squared powers in the fit, which grows as the scenes become fewer.
+    """
 
     kind: str
     models: tuple[str, ...]
     terms: Terms
     towards: str = ""
+    within: tuple[str, ...] = ()
+    above: Mapping[str, float] = field(default_factory=dict)
+    ridge: float = RIDGE
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,8 +61,8 @@ class PlannedResolution:
 
 def _plan(entries: Mapping[str, Any]) -> dict[str, Any]:
     terms = tuple(tuple(term) for term in entries.get("terms", ()))
-    models = {"models": tuple(entries["models"])} if "models" in entries else {}
-    return {**entries, **models, "terms": terms}
+    lists = {name: tuple(entries[name]) for name in ("models", "within") if name in entries}
+    return {**entries, **lists, "terms": terms}
 
 
 _TABLE: Mapping[str, Sequence[Mapping[str, Any]]] = tomllib.loads(

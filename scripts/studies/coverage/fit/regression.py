@@ -50,7 +50,13 @@ MIN_SCENES_AT_LEVEL = 20
 """Smallest number of scenes at a level that may raise the coefficients."""
 
 
-def fitted(rows: Sequence[tuple[Numbers, float]], terms: Sequence[Sequence[str]]) -> Law:
+def fitted(
+    rows: Sequence[tuple[Numbers, float]],
+    terms: Sequence[Sequence[str]],
+    *,
+    within: Sequence[str] = (),
+    ridge: float = RIDGE,
+) -> Law:
     """Fit the law E = Σ_j C_j Π_k n_k^b_jk, such that 95 of 100 errors of other scenes are below it.
 
     The logarithms minimise the mean pinball loss of ln(error) - ln E at the quantile ``CERTAINTY`` (Koenker and Bassett
@@ -62,6 +68,8 @@ def fitted(rows: Sequence[tuple[Numbers, float]], terms: Sequence[Sequence[str]]
     ----------
     rows : numbers of each scene, which are positive, with the relative error of a model.
     terms : the names of the numbers in each term.
+    within : the names of further numbers, above whose range the law is not known.
+    ridge : weight of the squared powers, scaled by the spread of their numbers, in the function that is minimised.
     """
     errors = np.maximum([error for _, error in rows], MIN_ERROR)
     names = tuple(dict.fromkeys(name for term in terms for name in term))
@@ -70,9 +78,9 @@ def fitted(rows: Sequence[tuple[Numbers, float]], terms: Sequence[Sequence[str]]
     for fold in range(FOLDS):
         left = folds == fold
         own = {name: values[~left] for name, values in x.items()}
-        powers, weights = _law(own, errors[~left], terms)
+        powers, weights = _law(own, errors[~left], terms, ridge)
         others[left] = weights @ _shapes({name: values[left] for name, values in x.items()}, powers)
-    powers, weights = _law(x, errors, terms)
+    powers, weights = _law(x, errors, terms, ridge)
     shapes = _shapes(x, powers)
     bound = weights @ shapes
     factor = calibration(errors, others)
@@ -82,9 +90,14 @@ def fitted(rows: Sequence[tuple[Numbers, float]], terms: Sequence[Sequence[str]]
             for weight, own, shape in zip(weights, powers, shapes, strict=True)
             if (weight * shape > LEAST_PART * bound).any()
         ),
-        reach={name: (_rounded(np.exp(x[name].min())), _rounded(np.exp(x[name].max()))) for name in names},
+        reach={
+            name: (_rounded(min(values)), _rounded(max(values)))
+            for name in dict.fromkeys((*names, *within))
+            for values in [[numbers[name] for numbers, _ in rows]]
+        },
         scenes=len(rows),
         spread=_rounded(float(np.median(factor * bound / errors))),
+        within=tuple(within),
     )
 
 
@@ -102,9 +115,11 @@ def _folds(rows: Sequence[tuple[Numbers, float]]) -> Array:
     )
 
 
-def _law(x: Mapping[str, Array], errors: Array, terms: Sequence[Sequence[str]]) -> tuple[list[dict[str, float]], Array]:
+def _law(
+    x: Mapping[str, Array], errors: Array, terms: Sequence[Sequence[str]], ridge: float
+) -> tuple[list[dict[str, float]], Array]:
     """The powers and the coefficients of all terms before calibration."""
-    powers = _powers(x, np.log(errors), terms)
+    powers = _powers(x, np.log(errors), terms, ridge)
     return powers, _weights(_shapes(x, powers), errors)
 
 
@@ -133,7 +148,7 @@ def calibration(errors: Array, bound: Array) -> float:
     return factor
 
 
-def _powers(x: Mapping[str, Array], y: Array, terms: Sequence[Sequence[str]]) -> list[dict[str, float]]:
+def _powers(x: Mapping[str, Array], y: Array, terms: Sequence[Sequence[str]], ridge: float) -> list[dict[str, float]]:
     """The rounded powers of each term."""
     designs = [np.array([x[name] - x[name].mean() for name in term]).reshape(len(term), y.size) for term in terms]
     spreads = [design.std(axis=1) for design in designs]
@@ -144,8 +159,8 @@ def _powers(x: Mapping[str, Array], y: Array, terms: Sequence[Sequence[str]]) ->
         for j, (design, spread) in enumerate(zip(designs, spreads, strict=True)):
             own = parameters[ends[j] : ends[j + 1]]
             logs.append(own[0] + own[1:] @ design)
-            penalty += RIDGE * float(((own[1:] * spread) ** 2).sum())
-            slope[ends[j] + 1 : ends[j + 1]] = 2 * RIDGE * own[1:] * spread**2
+            penalty += ridge * float(((own[1:] * spread) ** 2).sum())
+            slope[ends[j] + 1 : ends[j + 1]] = 2 * ridge * own[1:] * spread**2
         total = np.logaddexp.reduce(logs, axis=0)
         left = y - total
         value = np.mean(CERTAINTY * left + SMOOTHING * np.logaddexp(0, -left / SMOOTHING))

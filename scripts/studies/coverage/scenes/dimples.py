@@ -5,6 +5,9 @@ import math
 import numpy as np
 from numpy.random import Generator
 
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.rom.pocket.scene import Pocket
 from scripts.studies.coverage.random_entries import Entries, between, chance, length
 
 SHAPES = ("spherical", "ellipsoidal", "conical", "box", "chevron", "groove", "points")
@@ -28,6 +31,11 @@ def draw(rng: Generator) -> Entries:
     Re = 0.001, which stands for none, the others 0.3 to 300; a fifth has two dimples, a quarter of the others is
     staggered; 40 of 100 dimples are off the middle. The lubricant is so thin that no film ruptures; load and friction
     as p+ do not depend on it.
+
+    Raises
+    ------
+    InputError
+        If the film is thicker than the narrowest part of a dimple or of an edge, over which no film is thin.
     """
     film, breadth = CELL * between(rng, 0.005, 0.2), CELL * between(rng, 0.5, 2.0)
     count = 2 if chance(rng, 0.2) else 1
@@ -42,7 +50,7 @@ def draw(rng: Generator) -> Entries:
             if one["shape"] != "groove":
                 one["position_across"] = length(rng.uniform(-0.5, 0.5) * breadth)
         dimples.append({**one, "position": length(place)})
-    return {
+    entries: Entries = {
         "kind": "pocket",
         "geometry": {
             "length": length(CELL),
@@ -54,6 +62,12 @@ def draw(rng: Generator) -> Entries:
         "lubricant": {"viscosity": "0.1 mPa*s", "density": "1000 kg/m^3"},
         "motion": {"reynolds_number": 1e-3 if chance(rng, 0.2) else between(rng, 0.3, 300)},
     }
+    scene = read_scene({"name": "cell", **entries})
+    assert isinstance(scene, Pocket)
+    plan = scene.plan()
+    if plan.film > plan.smallest:
+        raise InputError(f"geometry.film: got {plan.film} m; the narrowest part of the wall is {plan.smallest} m")
+    return entries
 
 
 def dimple(rng: Generator, room: float, film: float) -> Entries:

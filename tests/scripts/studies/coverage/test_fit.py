@@ -1,5 +1,7 @@
 """The fit of bounds: on made-up errors whose law is known."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -60,6 +62,20 @@ def test_an_error_does_not_grow_as_the_reynolds_number_vanishes():
     assert law.beyond({"reynolds_number": 1e-9}) is None
 
 
+def test_a_law_is_not_known_above_the_range_of_numbers_that_it_does_not_contain():
+    rows = [({**numbers, "c": 1 + n / 60}, error) for n, (numbers, error) in enumerate(made(60, 6))]
+    law = fitted(rows, [("a",)], within=("c",))
+    assert law.names == ("a",)
+    assert [law.beyond({"a": 1.0, "c": c}) for c in (0.1, 1.5, 4.0)] == [None, None, "c"]
+    assert not law.has_numbers({"a": 1.0})
+
+
+def test_a_larger_ridge_gives_smaller_powers():
+    rows = made(60, 7)
+    powers = [abs(fitted(rows, [("a",)], ridge=ridge).terms[0].powers["a"]) for ridge in (1e-3, 0.1)]
+    assert powers[1] < 0.7 * powers[0]
+
+
 def test_a_level_that_is_not_kept_raises_the_factor():
     """All errors are below their bounds but for those with small bounds, a tenth of which are far off."""
     bound = np.concatenate([np.full(100, 0.008), np.full(1900, 0.5)])
@@ -74,7 +90,7 @@ def own():
     law = fitted(made(60, 4), [("a",), ("b",)])
     return Table(
         steps=[Step(kind="k", model="m", towards="n", adds="x", measure="a", left_out={"load": law})],
-        promises=[Promise(kind="k", model="m", towards="n", laws={"load": law})],
+        promises=[Promise(kind="k", model="m", towards="n", laws={"load": replace(law, within=("a",))})],
         grids=[Grid(kind="k", model="m", laws={"load": law})],
         provenance={"fits": {"k": {"scenes": 60}}},
     )
