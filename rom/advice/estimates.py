@@ -115,12 +115,18 @@ class AdviceTask:
         """The error by a resolution over the size of the quantity, by the laws; None without a law.
 
         It is 0 at the full resolution of a surface, which resolves all waves; :func:`with_own_uncertainty` adds the
-        rest.
+        rest. Without a law it is 0 at the default resolution of a model whose promise contains it.
         """
         if self.at_full_resolution(model, resolution):
             return 0.0
         law, numbers = self.grid_law(model), on_grid(self.numbers, resolution)
+        if law is None and self.promised(model) and resolution == model.resolution_of(self.scene):
+            return 0.0
         return law.error(numbers, RESOLVING) if law is not None and law.has_numbers(numbers) else None
+
+    def promised(self, model: Model) -> bool:
+        """Whether a promise of a model bounds the quantity."""
+        return self.quantity in self.table.promise(self.kind.name_of_laws, model.name).laws
 
     def at_full_resolution(self, model: Model, resolution: int) -> bool:
         """Whether a model without an order of convergence for the scene has its finest resolution.
@@ -205,8 +211,7 @@ def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | No
     model without a promise, the uncertainty that it states for a run replaces the law over resolutions.
     """
     left = left_out(task, task.chain(model))
-    promised = task.quantity in task.table.promise(task.kind.name_of_laws, model.name).laws
-    by_law = stated is None or promised
+    by_law = stated is None or task.promised(model)
     grid = task.grid(model, resolution) if by_law else stated
     if left is None or grid is None:
         return None if left is None else _by_omission(task, model)
