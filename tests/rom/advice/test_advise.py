@@ -370,12 +370,12 @@ def test_the_table_names_rungs_quantities_and_numbers_that_exist():
         assert set(kind.compared) <= (promised or set(step.left_out)) <= set(kind.titles)
         assert not (promised and step.left_out), "a promise replaces the step"
     for grid in found.grids:
-        assert grid.model in {model.name for model in of_kind(ALL, grid.kind)}
+        assert grid.model in {model.name for model in of_kind(ALL, kind_of_laws(grid.kind).name)}
     laws = [(one.kind, law) for one in found.steps for law in one.left_out.values()]
     laws += [(one.kind, law) for one in found.promises for law in one.laws.values()]
     laws += [(one.kind, law) for one in found.grids for law in one.laws.values()]
     for kind, one in laws:
-        assert set(one.names) <= {*kinds()[kind].symbols, *RESOLVING}
+        assert set(one.names) <= {*kind_of_laws(kind).symbols, *RESOLVING}
         assert all(term.coefficient > 0 for term in one.terms)
 
 

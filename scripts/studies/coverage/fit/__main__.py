@@ -20,7 +20,7 @@ from scripts.studies.coverage.__main__ import chosen
 from scripts.studies.coverage.fit import resolutions, rows
 from scripts.studies.coverage.fit.laws_file import OWN_FILE, text_of, write_table
 from scripts.studies.coverage.fit.plans import PROMISES, RESOLUTIONS, STEPS, Terms
-from scripts.studies.coverage.fit.regression import RIDGE, fitted
+from scripts.studies.coverage.fit.regression import fitted
 from scripts.studies.coverage.fit.rows import FitScene, Refinements, Rows
 from scripts.studies.study import Out, counted
 
@@ -37,7 +37,6 @@ def laws(
     *,
     within: Sequence[str] = (),
     above: Mapping[str, float] | None = None,
-    ridge: float = RIDGE,
 ) -> dict[str, Law]:
     """Return the laws of all quantities of a kind that have enough errors, which ``errors(quantity)`` returns.
 
@@ -52,7 +51,7 @@ def laws(
             if error < math.inf and all(limit < numbers.get(name, 0) < math.inf for name, limit in least.items())
         ]
         if len(usable) >= MIN_SCENES:
-            found[quantity] = fitted(usable, terms, within=within, ridge=ridge)
+            found[quantity] = fitted(usable, terms, within)
     return found
 
 
@@ -83,7 +82,6 @@ def fit(kind: str, scenes: Mapping[int, FitScene], refinements: Refinements) -> 
                 partial(rows.promised, scenes, refinements, model, plan.towards),
                 within=plan.within,
                 above=plan.above,
-                ridge=plan.ridge,
             ),
         )
         for plan in PROMISES

@@ -6,8 +6,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from scripts.studies.coverage.fit.regression import RIDGE
-
 Terms = tuple[tuple[str, ...], ...]
 """The names of the numbers in each term of a law."""
 
@@ -37,7 +35,6 @@ class PlannedPromise:
     ----------
     within : numbers that are in no term, above whose range the laws are not known.
     above : numbers with a limit; scenes below it are left out of the fit.
-    ridge : weight of the squared powers in the fit, which grows as the scenes become fewer.
     """
 
     kind: str
@@ -46,7 +43,6 @@ class PlannedPromise:
     towards: str = ""
     within: tuple[str, ...] = ()
     above: Mapping[str, float] = field(default_factory=dict)
-    ridge: float = RIDGE
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -53,9 +53,7 @@ MIN_SCENES_AT_LEVEL = 20
 def fitted(
     rows: Sequence[tuple[Numbers, float]],
     terms: Sequence[Sequence[str]],
-    *,
     within: Sequence[str] = (),
-    ridge: float = RIDGE,
 ) -> Law:
     """Fit the law E = Σ_j C_j Π_k n_k^b_jk, such that 95 of 100 errors of other scenes are below it.
 
@@ -69,7 +67,6 @@ def fitted(
     rows : numbers of each scene, which are positive, with the relative error of a model.
     terms : the names of the numbers in each term.
     within : the names of further numbers, above whose range the law is not known.
-    ridge : weight of the squared powers, scaled by the spread of their numbers, in the function that is minimised.
     """
     errors = np.maximum([error for _, error in rows], MIN_ERROR)
     names = tuple(dict.fromkeys(name for term in terms for name in term))
@@ -78,9 +75,9 @@ def fitted(
     for fold in range(FOLDS):
         left = folds == fold
         own = {name: values[~left] for name, values in x.items()}
-        powers, weights = _law(own, errors[~left], terms, ridge)
+        powers, weights = _law(own, errors[~left], terms)
         others[left] = weights @ _shapes({name: values[left] for name, values in x.items()}, powers)
-    powers, weights = _law(x, errors, terms, ridge)
+    powers, weights = _law(x, errors, terms)
     shapes = _shapes(x, powers)
     bound = weights @ shapes
     factor = calibration(errors, others)
@@ -115,11 +112,9 @@ def _folds(rows: Sequence[tuple[Numbers, float]]) -> Array:
     )
 
 
-def _law(
-    x: Mapping[str, Array], errors: Array, terms: Sequence[Sequence[str]], ridge: float
-) -> tuple[list[dict[str, float]], Array]:
+def _law(x: Mapping[str, Array], errors: Array, terms: Sequence[Sequence[str]]) -> tuple[list[dict[str, float]], Array]:
     """The powers and the coefficients of all terms before calibration."""
-    powers = _powers(x, np.log(errors), terms, ridge)
+    powers = _powers(x, np.log(errors), terms)
     return powers, _weights(_shapes(x, powers), errors)
 
 
@@ -148,7 +143,7 @@ def calibration(errors: Array, bound: Array) -> float:
     return factor
 
 
-def _powers(x: Mapping[str, Array], y: Array, terms: Sequence[Sequence[str]], ridge: float) -> list[dict[str, float]]:
+def _powers(x: Mapping[str, Array], y: Array, terms: Sequence[Sequence[str]]) -> list[dict[str, float]]:
     """The rounded powers of each term."""
     designs = [np.array([x[name] - x[name].mean() for name in term]).reshape(len(term), y.size) for term in terms]
     spreads = [design.std(axis=1) for design in designs]
@@ -159,8 +154,8 @@ def _powers(x: Mapping[str, Array], y: Array, terms: Sequence[Sequence[str]], ri
         for j, (design, spread) in enumerate(zip(designs, spreads, strict=True)):
             own = parameters[ends[j] : ends[j + 1]]
             logs.append(own[0] + own[1:] @ design)
-            penalty += ridge * float(((own[1:] * spread) ** 2).sum())
-            slope[ends[j] + 1 : ends[j + 1]] = 2 * ridge * own[1:] * spread**2
+            penalty += RIDGE * float(((own[1:] * spread) ** 2).sum())
+            slope[ends[j] + 1 : ends[j + 1]] = 2 * RIDGE * own[1:] * spread**2
         total = np.logaddexp.reduce(logs, axis=0)
         left = y - total
         value = np.mean(CERTAINTY * left + SMOOTHING * np.logaddexp(0, -left / SMOOTHING))
