@@ -146,8 +146,7 @@ def test_the_truth_of_a_models_own_equations_is_that_of_todays_quantities(monkey
 
 
 def test_a_sample_of_every_kind_is_covered():
-    """The truth of dimples takes minutes of OpenFOAM: they have no sample yet."""
-    sampled = set(kinds_with_truth()) - {"dimples"}
+    sampled = set(kinds_with_truth())
     stored = [one for kind in sampled for one in read(path_of(STORED, kind)).values()]
     found = [replace(one, models=answers(drawn(one.kind, one.seed))) for one in stored]
     judged = [one for one in findings(found) if one.decided]
