@@ -19,7 +19,7 @@ ORDER = 2
 """Order in the size of the columns at which the load of the reference converges on similar meshes."""
 
 MIN_CHOICE = 1e-6
-"""Load over that by the reference below which a model finds no load: what remains is round-off."""
+"""Largest load by a model over that by the reference below which it finds no load: what remains is round-off."""
 
 MIN_LOAD = 0.05
 """Load over the largest pressure below which the load is a difference of larger numbers and errors are left out."""
@@ -100,7 +100,7 @@ class Dimples:
         cases = self.cases(family, number)
         cases = cases[np.isfinite(self.load(model)[cases])]
         own, true = self.load(model)[cases], self.load(REFERENCE)[cases]
-        if not (own > MIN_CHOICE * true).any():
+        if not own.size or own.max() <= MIN_CHOICE * np.abs(true).max():
             return None
         best = int(np.argmax(own))
         covered, depth = (self.sweep.given[name][cases] for name in ("covered", "depth_plus"))

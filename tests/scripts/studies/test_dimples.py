@@ -8,7 +8,7 @@ import pytest
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.studies.sweep import Sweep
 from scripts.studies.dimples.__main__ import error_row, parts
-from scripts.studies.dimples.data import dimples_of
+from scripts.studies.dimples.data import dimples_of, joined
 
 DEPTHS, WIDTHS = (0.5, 1.0, 1.5), (0.3, 0.6)
 DEPTH, WIDTH = (values.ravel() for values in np.meshgrid(DEPTHS, WIDTHS, indexing="ij"))
@@ -70,6 +70,23 @@ def test_each_model_chooses_the_dimple_with_its_largest_load(sweep):
 def test_a_model_whose_loads_are_round_off_chooses_nothing(sweep):
     assert dimples_of(sweep).choice("spherical", 40.0, "reynolds") is None
     assert dimples_of(sweep).choice("spherical", 40.0, "inertial_reynolds") is not None
+
+
+def test_a_model_whose_loads_are_round_off_chooses_nothing_beside_negative_loads(sweep):
+    negative = {name: {**one, "load_plus": -one["load_plus"]} for name, one in sweep.found.items() if "navier" in name}
+    found = dimples_of(replace(sweep, found={**sweep.found, **negative}))
+    assert found.choice("spherical", 40.0, "reynolds") is None
+
+
+def test_tables_are_joined_with_gaps_where_a_column_is_missing():
+    one = {"case": np.array(["a", "b"]), "load": np.array([1.0, 2.0]), "shape": np.array(["box", "box"])}
+    other = {"case": np.array(["longer"]), "load": np.array([3.0]), "angle": np.array([0.5])}
+    found = joined([one, other])
+    assert found["case"].tolist() == ["a", "b", "longer"]
+    assert found["shape"].tolist() == ["box", "box", ""]
+    assert found["load"].tolist() == [1.0, 2.0, 3.0]
+    assert np.isnan(found["angle"][:2]).all()
+    assert found["angle"][2] == 0.5
 
 
 def test_errors_leave_out_loads_that_are_small_beside_the_pressure(sweep):
