@@ -10,8 +10,8 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.equilibrium.expected import MIN_FILM_OVER_PEAK, closest_film, expected_film
+from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.model import MAX_CELLS, smooth_resolutions
-from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.roughness import RoughSurface, Sinusoid, StoredTable
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.shape import CELLS_PER_FEATURE

@@ -15,10 +15,10 @@ from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity, to_si
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
+from roughfilm.rom.bearing.geometry.shapes import SHAPES
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES, RoughSurface
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.shapes import SHAPES
 from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping

@@ -7,10 +7,10 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
-from roughfilm.rom.bearing.ring import Ring, Washer
+from roughfilm.rom.bearing.geometry.ring import Ring, Washer
+from roughfilm.rom.bearing.geometry.shapes import AnyShape
+from roughfilm.rom.bearing.geometry.texture import Texture
 from roughfilm.rom.bearing.scene import Bearing, Inlet
-from roughfilm.rom.bearing.shapes import AnyShape
-from roughfilm.rom.bearing.texture import Texture
 from roughfilm.rom.cavitation.shape import Shape
 
 SAMPLES = 129

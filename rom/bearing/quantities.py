@@ -8,8 +8,8 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.bearing.totals.least_film import least_film
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio, filled_fraction

@@ -5,13 +5,15 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator, model_validator
 
-from roughfilm.contact.foundation.entries import InUnit, Part, PositiveNumber, plain_number
+from roughfilm.contact.foundation.entries import Angle, InUnit, Part, PositiveNumber, plain_number
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import rotational_speed, with_unit
 from roughfilm.rom.bearing.asperity_contact import AsperityContact
-from roughfilm.rom.bearing.ring import Ring
+from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
+from roughfilm.rom.bearing.geometry.lobes import DOWN
+from roughfilm.rom.bearing.geometry.ring import Ring
+from roughfilm.rom.bearing.geometry.shapes import SHAPES, AnyShape
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
-from roughfilm.rom.bearing.shapes import SHAPES, AnyShape, Journal
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
@@ -138,15 +140,17 @@ class BearingLoad(Part):
     pressure : load over the nominal area (of a journal bearing: diameter times width), Pa.
     force : load of the whole bearing, of a ring with all of its pieces, N.
     force_per_width : load over the width of an infinitely wide bearing, N/m.
+    angle : direction of the load on a shaft in lobes, from the x axis towards the y axis, rad; by default -90°, down.
     """
 
     pressure: Pressure | None = None
     force: Force | None = None
     force_per_width: ForcePerWidth | None = None
+    angle: Angle = DOWN
 
     @model_validator(mode="after")
     def _one_of_three(self) -> Self:
-        given = [name for name in type(self).model_fields if getattr(self, name) is not None]
+        given = [name for name in ("pressure", "force", "force_per_width") if getattr(self, name) is not None]
         if not given:
             raise ValueError("is empty; give pressure, force or force_per_width")
         if len(given) > 1:
@@ -190,7 +194,7 @@ class Bearing(Scene):
         """The motion, with the sliding speed at the radius of the geometry in place of a rotational speed."""
         turning = rotational_speed(entries.get("speed")) if isinstance(entries, dict) else None
         geometry = info.data.get("geometry")
-        if turning is None or not isinstance(geometry, Journal | Ring | None):
+        if turning is None or not isinstance(geometry, Shaft | Ring | None):
             return entries
         # Without a geometry, which has a fault then, any speed will do.
         sliding = turning if geometry is None else turning * geometry.radius
@@ -236,7 +240,7 @@ class Bearing(Scene):
         if self.load is not None:
             self._can_be_loaded(self.load)
         elif film is None:
-            key = "eccentricity" if isinstance(self.geometry, Journal) else "film"
+            key = "eccentricity" if isinstance(self.geometry, Shaft) else "film"
             raise ValueError(f"geometry.{key}: is missing; give it, or a load ([load] force or pressure)")
         elif isinstance(self.roughness, Sinusoid) and self.roughness.amplitude >= film:
             raise ValueError(
@@ -292,7 +296,7 @@ class Bearing(Scene):
     def nominal_area(self) -> float:
         """The area of the film of one piece, m² (m if infinitely wide); of a journal bearing diameter times width."""
         geometry = self.geometry
-        length = 2 * geometry.radius if isinstance(geometry, Journal) else geometry.length
+        length = 2 * geometry.radius if isinstance(geometry, Shaft) else geometry.length
         return length * (1.0 if geometry.width is None else geometry.width)
 
     @property
@@ -311,6 +315,10 @@ class Bearing(Scene):
         """The bearing with a given minimum film thickness, m, and without a load."""
         return self.model_copy(update={"geometry": self.geometry.at_film(film), "load": None})
 
+    def moved(self, geometry: AnyShape) -> Self:
+        """The bearing with its wall at another place, and without a load."""
+        return self.model_copy(update={"geometry": geometry, "load": None})
+
     def at_speed(self, speed: float) -> Self:
         """The bearing at another speed, m/s."""
         return self.model_copy(update={"motion": BearingMotion.model_construct(speed=speed)})
@@ -318,7 +326,7 @@ class Bearing(Scene):
     @property
     def turning_radius(self) -> float | None:
         """The radius at which the speed of a rotating wall is given, m; None if the wall does not rotate."""
-        return self.geometry.radius if isinstance(self.geometry, Journal | Ring) else None
+        return self.geometry.radius if isinstance(self.geometry, Shaft | Ring) else None
 
     @property
     def pieces(self) -> int | None:
@@ -380,5 +388,5 @@ class Bearing(Scene):
     @property
     def revolutions(self) -> float:
         """The rotational frequency of the shaft, 1/s."""
-        assert isinstance(self.geometry, Journal)
+        assert isinstance(self.geometry, Shaft)
         return abs(self.motion.speed) / (2 * math.pi * self.geometry.radius)

@@ -16,9 +16,9 @@ from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
 from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, converted, under_load
 from roughfilm.rom.bearing.film import Searched, smooth_films
+from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.bearing.totals.reported import in_order
 from roughfilm.rom.bearing.totals.whole import whole_bearing
 from roughfilm.rom.bearing.uncertainty import POSITIONS, uncertainties

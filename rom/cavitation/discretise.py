@@ -1,5 +1,6 @@
 """The network of a film: the conductance of every face, integrated over the film thickness inside it."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import sqrt
 
@@ -66,48 +67,71 @@ class Faces:
 
 def faces(shape: Shape, grid: Grid) -> Faces:
     """The film sampled on a grid; flows are fourth-order accurate where h is smooth along them."""
-    nx, ny = grid.shape
-    mean, east, north, thickness = (np.zeros((nx, ny)) for _ in range(4))
-    x, y = grid.x[:, None], grid.y
+    return faces_of((shape.thickness(x, y) for x, y in positions(grid)), shape, grid)
+
+
+def positions(grid: Grid) -> Iterator[tuple[Array, Array]]:
+    """The positions (x, y) at which a film is sampled on a grid, in the order in which :func:`faces_of` takes it.
+
+    They are those beside the nodes, shape (2, nx, ny), for each strip of a control volume the Gauss points and the
+    parts of the faces along the flow, and for each side of a node the Gauss points of the faces across it.
+    """
+    (nx, ny), x, y = grid.shape, grid.x[:, None], grid.y
+    yield _places([x + _towards(grid, part) for part in BESIDE], y)
     begins = y - np.append(grid.spacing_y[-1], grid.spacing_y[:-1]) / 2
-    strips = [y] if ny == 1 else [begins + part * grid.volume_y for part in QUARTERS]
-    for part in BESIDE:
-        thickness += shape.thickness(*np.broadcast_arrays(x + _towards(grid, part), y)) / len(BESIDE)
-    parts = np.zeros((2, len(PARTS), nx, ny))
     last = nx if grid.spacing_x[-1] else nx - 1
-    dx, x = grid.spacing_x[:last, None], grid.x[:last, None]
-    for strip in strips:
-        squared, cubed = np.zeros((last, ny)), np.zeros((last, ny))
-        for point in GAUSS:
-            square, cube = _resistance(shape, *np.broadcast_arrays(x + (0.5 + point) * dx, strip))
-            squared += square
-            cubed += cube
-        mean[:last] += squared / cubed / len(strips)
-        east[:last] += len(GAUSS) / cubed / len(strips)
-        squared, cubed = np.zeros((last, ny)), np.zeros((last, ny))
-        for number, part in enumerate(PARTS):
-            middle = x + (part - PARTS[0] / 2) * dx
-            square, cube = _resistance(shape, *np.broadcast_arrays(middle, strip))
-            squared += square * PARTS[0]
-            cubed += cube * PARTS[0]
-            parts[0, number, :last] += squared / cubed / len(strips)
-            parts[1, number, :last] += 1 / cubed / len(strips)
+    dx, along = grid.spacing_x[:last, None], x[:last]
+    points = [along + (0.5 + point) * dx for point in GAUSS]
+    points += [along + (part - PARTS[0] / 2) * dx for part in PARTS]
+    for strip in [y] if ny == 1 else [begins + part * grid.volume_y for part in QUARTERS]:
+        yield _places(points, strip)
     if ny > 1:
         last = ny if grid.spacing_y[-1] else ny - 1
-        dy, y = grid.spacing_y[:last], grid.y[:last]
+        dy, across = grid.spacing_y[:last], y[:last]
         for part in AROUND:
-            cubed = np.zeros((nx, last))
-            for point in GAUSS:
-                place = np.broadcast_arrays(grid.x[:, None] + _towards(grid, part), y + (0.5 + point) * dy)
-                cubed += _resistance_across(shape, *place)
+            yield _places([x + _towards(grid, part)], np.array([across + (0.5 + point) * dy for point in GAUSS]))
+
+
+def _places(x: list[Array], y: Array) -> tuple[Array, Array]:
+    """Positions of shape (points, nx, ny) from lists of x, each of shape (nx, 1), and of y, shape (ny,)."""
+    x_of_all, y_of_all = np.broadcast_arrays(np.array(x), y.reshape(-1, 1, y.shape[-1]))
+    return x_of_all, y_of_all
+
+
+def faces_of(thickness: Iterator[Array], shape: Shape, grid: Grid) -> Faces:
+    """The film on a grid from its thickness at the ``positions``, m, and the roughness of its shape."""
+    nx, ny = grid.shape
+    mean, east, north = (np.zeros((nx, ny)) for _ in range(3))
+    nodes = (next(thickness) / len(BESIDE)).sum(axis=0)
+    parts = np.zeros((2, len(PARTS), nx, ny))
+    last = nx if grid.spacing_x[-1] else nx - 1
+    strips = 1 if ny == 1 else len(QUARTERS)
+    for _ in range(strips):
+        square, cube = _resistance(shape, next(thickness))
+        squared, cubed = (values[: len(GAUSS)].sum(axis=0) for values in (square, cube))
+        mean[:last] += squared / cubed / strips
+        east[:last] += len(GAUSS) / cubed / strips
+        squared, cubed = (_accumulated(values[len(GAUSS) :] * PARTS[0]) for values in (square, cube))
+        parts[0, :, :last] += squared / cubed / strips
+        parts[1, :, :last] += 1 / cubed / strips
+    if ny > 1:
+        last = ny if grid.spacing_y[-1] else ny - 1
+        for _ in AROUND:
+            cubed = _resistance_across(shape, next(thickness)).sum(axis=0)
             north[:, :last] += len(GAUSS) / cubed / len(AROUND)
     rough = None if shape.roughness is None else averaged(shape, shape.roughness, grid)
-    return Faces(thickness=thickness, mean=mean, east=east, north=north, parts=parts, averaged=rough)
+    return Faces(thickness=nodes, mean=mean, east=east, north=north, parts=parts, averaged=rough)
 
 
-def _resistance(shape: Shape, x: Array, y: Array) -> tuple[Array, Array]:
-    """h⁻² and h⁻³ at positions, or B₁/A₁₁ and 1/A₁₁ with averaged roughness."""
-    h = shape.thickness(x, y)
+def _accumulated(values: Array) -> Array:
+    """The sums of values up to each one of the first axis, in place: ``cumsum`` is slow along that axis."""
+    for number in range(1, len(values)):
+        values[number] += values[number - 1]
+    return values
+
+
+def _resistance(shape: Shape, h: Array) -> tuple[Array, Array]:
+    """h⁻² and h⁻³, or B₁/A₁₁ and 1/A₁₁ with averaged roughness."""
     if shape.roughness is None:
         inverse = 1 / h
         square = inverse * inverse
@@ -116,9 +140,8 @@ def _resistance(shape: Shape, x: Array, y: Array) -> tuple[Array, Array]:
     return factors.drag / factors.along, 1 / factors.along
 
 
-def _resistance_across(shape: Shape, x: Array, y: Array) -> Array:
-    """h⁻³ at positions, or 1/A₂₂ with averaged roughness."""
-    h = shape.thickness(x, y)
+def _resistance_across(shape: Shape, h: Array) -> Array:
+    """h⁻³, or 1/A₂₂ with averaged roughness."""
     if shape.roughness is not None:
         return np.asarray(1 / shape.roughness(h).across)
     inverse = 1 / h
@@ -141,7 +164,7 @@ def network(
     speed: float,
     viscosity: float,
     compressibility: float,
-    storage: tuple[float, Array] | None = None,
+    storage: tuple[float | Array, float | Array] | None = None,
     ruptures: bool = True,
 ) -> Network:
     """The network of a film.
@@ -151,7 +174,8 @@ def network(
     speed : speed of the sliding wall towards increasing x, >= 0, m/s; rad/s where x is an angle.
     viscosity : viscosity at the cavitation pressure, Pa s.
     compressibility : dθ/dp at the cavitation pressure, 1/Pa.
-    storage : in transient flow, the time step, s, and θh of the step before, m, shape (nx, ny).
+    storage : in transient flow, the rate a, 1/s, and s, m/s, of ∂(θh)/∂t = a θh - s; each a number or of shape
+        (nx, ny).
     ruptures : whether the film cavitates.
 
     Raises
@@ -199,7 +223,7 @@ def network(
         within = slice(None) if grid.spacing_x[-1] else slice(1, -1)
         for j, empties in zip((0, -1), spills, strict=True):
             fixed[within, j] &= not empties
-    step, stored = (np.inf, np.zeros((nx, ny))) if storage is None else storage
+    rate, stored = (0.0, 0.0) if storage is None else storage
     return Network(
         couette=couette,
         upstream=upstream,
@@ -210,8 +234,8 @@ def network(
         pressure=pressure,
         part_couette=part_couette,
         part_east=part_east,
-        storage=grid.areas * faces.thickness / step,
-        stored=grid.areas * stored / step,
+        storage=grid.areas * faces.thickness * rate,
+        stored=grid.areas * stored,
         periodic=(bool(grid.spacing_x[-1]), bool(grid.spacing_y[-1])),
         oblique=lay,
         spills=spills,

@@ -14,11 +14,6 @@ def carried(state: State, coarse: Grid, fine: Grid, joined: tuple[bool, bool]) -
     return State(pressure=pressure, fill=np.where(pressure > 0, 1.0, fill))
 
 
-def interpolated(values: Array, known: Grid, wanted: Grid, joined: tuple[bool, bool]) -> Array:
-    """Values interpolated linearly in x and y from the nodes of one grid to those of another."""
-    return _interpolated((values,), known, wanted, joined)[0]
-
-
 def _interpolated(fields: tuple[Array, ...], known: Grid, wanted: Grid, joined: tuple[bool, bool]) -> list[Array]:
     x = _between(known.x, known.spacing_x, wanted.x, joined=joined[0])
     y = _between(known.y, known.spacing_y, wanted.y, joined=joined[1])

@@ -45,8 +45,8 @@ class Network:
     fixed : nodes whose ``pressure``, Pa, is given.
     part_couette, part_east : C_s and K_s of each part of the faces towards i+1, shape (parts, nx, ny); no parts where
         films do not rupture inside a face.
-    storage : volume over time step, m³/s; zero in steady flow.
-    stored : volume times θ of the step before, over the time step, m³/s.
+    storage : V a of ∂(θV)/∂t = V a θ - s of the volumes V of the nodes, m³/s; zero in steady flow.
+    stored : s, m³/s.
     periodic : whether i is periodic, and j.
     oblique : flows that an oblique lay adds; None without one.
     spills : whether the sides j = 0 and j = -1 are at the cavitation pressure; they then discharge what exceeds their

@@ -55,6 +55,31 @@ class Linear:
     south: Array
     north: Array
 
+    def image(self, values: Array) -> Array:
+        """The derivatives of the balances times changes of the unknowns, shape (nx, ny)."""
+        along = self.west * np.roll(values, 1, axis=0) + self.east * np.roll(values, -1, axis=0)
+        across = self.south * np.roll(values, 1, axis=1) + self.north * np.roll(values, -1, axis=1)
+        return np.asarray(self.centre * values + along + across)
+
+    def adjoint(self, values: Array) -> Array:
+        """The transposed derivatives of the balances times values at the nodes, shape (nx, ny)."""
+        along = np.roll(self.west * values, -1, axis=0) + np.roll(self.east * values, 1, axis=0)
+        across = np.roll(self.south * values, -1, axis=1) + np.roll(self.north * values, 1, axis=1)
+        return np.asarray(self.centre * values + along + across)
+
+    def without(self, known: NDArray[np.bool_]) -> "Linear":
+        """The system in which the unknowns of some nodes do not change."""
+        beside = [
+            np.where(known | np.roll(known, shift, axis=axis), 0.0, part)
+            for part, shift, axis in (
+                (self.west, 1, 0),
+                (self.east, -1, 0),
+                (self.south, 1, 1),
+                (self.north, -1, 1),
+            )
+        ]
+        return Linear(self.kind, self.mobility, self.balance, np.where(known, 1.0, self.centre), *beside)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Settled:

@@ -6,7 +6,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.discretise import Ends
-from roughfilm.rom.cavitation.shape import Shape
+from roughfilm.rom.cavitation.shape import Shape, Thickness
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
 from roughfilm.rom.lubricants.viscosity import ConstantViscosity
@@ -14,7 +14,7 @@ from roughfilm.rom.lubricants.viscosity import ConstantViscosity
 
 @dataclass(frozen=True, kw_only=True)
 class Problem:
-    """Steady flow of one lubricant between a shaped still wall and a flat sliding one.
+    """Flow of one lubricant between a shaped wall and a flat sliding one, whose filling does not change in time.
 
     Attributes
     ----------
@@ -23,6 +23,7 @@ class Problem:
     speed : speed of the sliding wall, m/s, or rad/s where x is an angle; negative towards decreasing x.
     viscosity : η0, viscosity at the cavitation pressure, Pa s.
     compressibility, piezoviscosity : density and viscosity over pressure.
+    opening : opening(x, y), the velocity ∂h/∂t at which the walls part, m/s, vectorised; None if they do not.
     """
 
     shape: Shape
@@ -31,6 +32,7 @@ class Problem:
     viscosity: float
     compressibility: Compressibility = field(default_factory=Incompressible)
     piezoviscosity: Piezoviscosity = field(default_factory=ConstantViscosity)
+    opening: Thickness | None = None
 
     def compression(self, pressure: Array) -> tuple[Array, Array]:
         """ϑ = θ - 1 and dθ/dp, 1/Pa."""

@@ -8,11 +8,10 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.discretise import Ends, Faces, faces, network
 from roughfilm.rom.cavitation.grid import Grid, grid
-from roughfilm.rom.cavitation.interpolation import carried, interpolated
+from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import UnsettledError, settle
 from roughfilm.rom.cavitation.pressure_limit import at_constant_viscosity, pressure_limit, reduced_pressure
@@ -42,7 +41,7 @@ COLD_SWEEPS = 400
 """Relaxation sweeps before Newton's method without a start."""
 
 WARM_SWEEPS = 6
-"""Relaxation sweeps before Newton's method from the solution of a coarser grid or of a time step, in the plane."""
+"""Relaxation sweeps before Newton's method from the solution of a coarser grid in the plane."""
 
 WARM_SWEEPS_OF_LINE = 1
 """The same for an infinitely wide film, whose Newton step costs no more than a sweep."""
@@ -98,10 +97,9 @@ def solve(
     tolerance: float = RESIDUAL_TOLERANCE,
     start: State | None = None,
     ruptures: bool = True,
-    storage: tuple[float, Array] | None = None,
     progress: Progress = lambda _fraction, _words: None,
 ) -> Solution:
-    """Solve (u/2) ∂(θh)/∂x - ∇·(θh³/12η ∇p) = 0 with p > 0 in the film, and p = 0 with θ < 1 in cavities.
+    """Solve θ ∂h/∂t + (u/2) ∂(θh)/∂x - ∇·(θh³/12η ∇p) = 0 with p > 0 in the film, and p = 0 with θ < 1 in cavities.
 
     Load and pressure are second-order accurate in the cell size. Sliding towards decreasing x is solved mirrored.
 
@@ -111,7 +109,6 @@ def solve(
     start : state on the finest grid from which to start; without one, or if it does not converge, coarser grids provide
         the start.
     ruptures : whether the film cavitates; without cavitation pressures may be negative, and the inlet is full.
-    storage : in transient flow, the time step, s, and θh of the step before at the nodes of the finest grid, m.
 
     Raises
     ------
@@ -125,8 +122,8 @@ def solve(
     turned = problem.speed < 0
     if turned:
         problem = mirrored(problem)
-    if problem.speed == 0 and storage is None:
-        ruptures = False  # without sliding the pressure lies between those of the ends
+    if problem.speed == 0 and problem.opening is None:
+        ruptures = False  # without motion the pressure lies between those of the ends
     if not ruptures:
         problem = replace(problem, ends=replace(problem.ends, inlet=problem.ends.inlet or 0.0))
     wide = problem.shape.wide
@@ -155,16 +152,13 @@ def solve(
                 sweeps=COLD_SWEEPS if cold else WARM_SWEEPS_OF_LINE if wide else WARM_SWEEPS,
                 tolerance=tolerance,
                 ruptures=ruptures,
-                storage=storage and (storage[0], interpolated(storage[1], finest, nodes, problem.shape.joined)),
             )
         except UnsettledError as error:
-            if unchecked and storage is None:
+            if unchecked:
                 unchecked = False
                 _check_pressure_limit(problem, cells, limit, ruptures=ruptures)
             if given:
-                again = solve(
-                    problem, cells, tolerance=tolerance, ruptures=ruptures, storage=storage, progress=progress
-                )
+                again = solve(problem, cells, tolerance=tolerance, ruptures=ruptures, progress=progress)
                 return replace(again, turned=turned)
             if nodes is finest:
                 raise
@@ -223,13 +217,12 @@ def on_grid(
     sweeps: int,
     tolerance: float,
     ruptures: bool = True,
-    storage: tuple[float, Array] | None = None,
 ) -> Solution:
-    """The solution on one grid, after relaxation sweeps from ``start`` or from a full film at cavitation pressure.
-
-    ``storage`` is that of transient flow, as in ``network``.
-    """
+    """The solution on one grid, after relaxation sweeps from ``start`` or from a full film at cavitation pressure."""
     sampled = faces(problem.shape, nodes)
+    storage = None
+    if problem.opening is not None:
+        storage = problem.opening(*np.meshgrid(nodes.x, nodes.y, indexing="ij")) / sampled.thickness, 0.0
     net = network(
         nodes,
         sampled,
@@ -284,7 +277,9 @@ def mirrored(problem: Problem) -> Problem:
         thickness=lambda x, y: shape.thickness(low + high - x, y),
         roughness=None if shape.roughness is None else mirrored_factors(shape.roughness),
     )
-    return replace(problem, shape=turned, speed=-problem.speed)
+    opening = problem.opening
+    back = None if opening is None else lambda x, y: opening(low + high - x, y)
+    return replace(problem, shape=turned, speed=-problem.speed, opening=back)
 
 
 @cache

@@ -15,8 +15,8 @@ from roughfilm.charts.family import Measured, Peer
 from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.contact.foundation.errors import ConvergenceError, UnavailableError
 from roughfilm.contact.foundation.writing.scratch import scratch_directory
+from roughfilm.rom.bearing.geometry.shapes import Parabolic
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.shapes import Parabolic
 from roughfilm.rom.dry_contact.scene import DryContact
 from roughfilm.rom.lubricants.compressibility import ConstantBulkModulus
 from roughfilm.rom.parts.restriction import restricted

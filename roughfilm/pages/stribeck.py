@@ -12,10 +12,10 @@ from roughfilm.figures import stribeck as stribeck_figures
 from roughfilm.figures.base import svg
 from roughfilm.figures.stribeck import Drawn
 from roughfilm.pages.render import render
+from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.stribeck import LOAD_TOLERANCE, StribeckCurve, StribeckPoint, curve_film
-from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.words.average import count_in_words
 from roughfilm.words.stribeck import SpeedScale, lift_off, number_of, own_point, speed_scale

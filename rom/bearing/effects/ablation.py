@@ -10,12 +10,12 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.film import FlooredFlowFactors, averaged_film
+from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.mixed.film import mixed_problem
 from roughfilm.rom.bearing.mixed.quantities import MIXED_OUTPUTS
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.numbers import without_texture
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Outputs
-from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.uncertainty import IMBALANCE_FACTOR
 from roughfilm.rom.bearing.warnings import scene_warnings

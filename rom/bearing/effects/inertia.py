@@ -15,11 +15,11 @@ from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.bearing.effects.ablation import Amount, Variant, VariantSolution, difference
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.effects.wide_pad import WideFilm, wide_films
+from roughfilm.rom.bearing.geometry.ring import Ring
+from roughfilm.rom.bearing.geometry.texture import Texture
 from roughfilm.rom.bearing.inertia import inertia
 from roughfilm.rom.bearing.numbers import bearing_numbers, without_texture
-from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.texture import Texture
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty
 from roughfilm.rom.cavitation.solve import load_loops, solve
 from roughfilm.rom.ladder.model import Model, find, of_kind

@@ -8,8 +8,8 @@ import numpy as np
 import scipy
 
 from roughfilm.contact.foundation.deferred import deferred
+from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.shapes import Journal
 
 REFERENCE = 1e-4
 """Film thickness at which the shape of a wall is sampled, over the largest film thickness of the geometry."""

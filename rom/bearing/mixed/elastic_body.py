@@ -10,11 +10,11 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.contact.mechanics.half_space import HalfSpace
 from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, balanced
+from roughfilm.rom.bearing.geometry.journal import Journal
+from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.mixed.contact_load import asperity_load
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState, mixed_problem, mixed_state
-from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape

@@ -8,11 +8,11 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.film import FlooredFlowFactors
+from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load, quarters
 from roughfilm.rom.bearing.quantities import load_of, nominal_area, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.evaluation.friction import friction
 from roughfilm.rom.cavitation.grid import Grid, grid

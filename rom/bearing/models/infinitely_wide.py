@@ -3,8 +3,8 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.model import SOURCES, bearing_model
-from roughfilm.rom.bearing.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Applicability, Effect
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.bearing.shapes import AnyShape
+from roughfilm.rom.bearing.geometry.shapes import AnyShape
 from roughfilm.rom.cavitation.grid import grid
 from roughfilm.rom.cavitation.shape import Shape
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.bearing.pad import Pad
+from roughfilm.rom.bearing.geometry.pad import Pad
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.lubricants.compressibility import Incompressible

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.bearing.ring import Ring
+from roughfilm.rom.bearing.geometry.journal import Journal
+from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.shapes import Journal
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.stability.checks.cavitation import control_lengths

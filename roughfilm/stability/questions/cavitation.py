@@ -9,9 +9,10 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.closed_forms import barus_pressure, linear_slider, rayleigh_step
-from roughfilm.rom.bearing.ring import Sector
-from roughfilm.rom.bearing.shapes import Journal, Parallel, Step
-from roughfilm.rom.bearing.texture import Texture, pocketed
+from roughfilm.rom.bearing.geometry.journal import Journal
+from roughfilm.rom.bearing.geometry.ring import Sector
+from roughfilm.rom.bearing.geometry.shapes import Parallel, Step
+from roughfilm.rom.bearing.geometry.texture import Texture, pocketed
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.shape import Shape

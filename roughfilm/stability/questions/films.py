@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
-from roughfilm.rom.bearing.shapes import Linear, Parabolic
+from roughfilm.rom.bearing.geometry.shapes import Linear, Parabolic
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.exact import exact
 from roughfilm.rom.cavitation.network import State

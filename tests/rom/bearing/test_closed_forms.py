@@ -8,8 +8,9 @@ from scipy.integrate import quad
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.closed_forms import barus_pressure, linear_slider, rayleigh_step, sommerfeld
+from roughfilm.rom.bearing.geometry.journal import Journal
+from roughfilm.rom.bearing.geometry.shapes import Linear, Step
 from roughfilm.rom.bearing.quantities import journal_load
-from roughfilm.rom.bearing.shapes import Journal, Linear, Step
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.evaluation.friction import friction
 from roughfilm.rom.cavitation.problem import Problem

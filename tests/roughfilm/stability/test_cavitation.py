@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from roughfilm.rom.bearing.ring import Sector
-from roughfilm.rom.bearing.shapes import Parabolic
+from roughfilm.rom.bearing.geometry.ring import Sector
+from roughfilm.rom.bearing.geometry.shapes import Parabolic
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import solve

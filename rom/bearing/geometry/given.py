@@ -13,8 +13,8 @@ from roughfilm.contact.foundation.entries import Length
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.reading.regular import file_size, opened
 from roughfilm.contact.surfaces.files import read_surface
-from roughfilm.rom.bearing.pad import Pad
-from roughfilm.rom.bearing.texture import pocketed
+from roughfilm.rom.bearing.geometry.pad import Pad
+from roughfilm.rom.bearing.geometry.texture import pocketed
 from roughfilm.rom.cavitation.shape import CELLS_PER_FEATURE, Shape
 from roughfilm.rom.parts.surface_geometry import PLAIN_FORMATS, digest_of
 

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from roughfilm.rom.cavitation.transient import march
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
 
@@ -14,7 +15,6 @@ from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import solve
-from roughfilm.rom.cavitation.transient import march
 
 AMBIENT = 0.025
 

@@ -8,7 +8,7 @@ from pydantic import model_validator
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Length, Part
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.bearing.texture import Texture, pocketed
+from roughfilm.rom.bearing.geometry.texture import Texture, pocketed
 from roughfilm.rom.cavitation.shape import Shape
 
 

@@ -8,7 +8,7 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, Length, Part, plain_number
-from roughfilm.rom.bearing.pad import known_film
+from roughfilm.rom.bearing.geometry.pad import known_film
 from roughfilm.rom.cavitation.shape import Shape
 
 Angle = Annotated[float, InUnit("rad")]

@@ -1,0 +1,114 @@
+"""The equilibrium of a wall that moves freely: the steady state of a motion with long time steps."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
+from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.cavitation.interpolation import carried
+from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
+from roughfilm.rom.cavitation.motion.march import held
+
+FIRST_STEP = 0.2
+"""First time step over the time in which the shaft turns by a radian."""
+
+GROWTH = 4.0
+"""Ratio of successive time steps that converge."""
+
+LAST_STEP = 1e6
+"""Time step over that time from which on the equilibrium itself is solved."""
+
+MAX_STEPS = 200
+"""Largest number of time steps."""
+
+HOLDING = 1e-9
+"""Stiffness that holds pads without pressure, over the load per clearance."""
+
+CLOSEST = 1e-4
+"""Least film over the clearance below which no equilibrium is sought."""
+
+
+def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load: Array | None = None) -> Instant:
+    """The film at which the load of the scene and the force of the film balance.
+
+    It is the end of a motion without mass by backward Euler steps, each ``GROWTH`` times as long as the one before.
+    From a start that is near enough, the first step is that of a steady film.
+
+    Parameters
+    ----------
+    start : a film near the equilibrium; without one the shaft starts at rest in its middle.
+    tolerance : residual at which a film is solved.
+    load : the load on each coordinate, N; by default that of the scene.
+
+    Raises
+    ------
+    InputError
+        If the film becomes thinner than ``CLOSEST`` times the clearance.
+    ConvergenceError
+        If the motion does not settle.
+    """
+    solved = film.solved
+    force = film.load if load is None else load
+    count = force.size
+    free, held_by = np.ones(count, dtype=bool), _holding(film, force)
+    if start is not None:
+        drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free)
+        try:
+            return settled(solved, start, drive, tolerance=tolerance)
+        except ConvergenceError:
+            pass
+    instant = film.first(film.wall.place) if start is None else start
+    given = Drive(
+        speed=solved.problem.speed, force=force, stiffness=np.zeros((count, count)), free=np.zeros(count, dtype=bool)
+    )
+    instant = settled(solved, instant, given, tolerance=tolerance)
+    time = 1 / _rate(film)
+    step = FIRST_STEP * time
+    for _ in range(MAX_STEPS):
+        last = step >= LAST_STEP * time
+        storage = (0.0, 0.0) if last else (1 / step, held(solved, instant) / step)
+        drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free, storage=storage)
+        try:
+            instant = settled(solved, instant, drive, tolerance=tolerance)
+        except ConvergenceError:
+            step /= GROWTH**2
+            if step < 1e-6 * time:
+                break
+            continue
+        if last:
+            return instant
+        least = float(instant.faces.thickness.min())
+        if least < CLOSEST * film.wall.unit[0]:
+            raise InputError(
+                f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; lower the load, or "
+                "raise the speed or the viscosity"
+            )
+        step *= GROWTH
+    raise ConvergenceError(
+        "load: the motion towards the equilibrium does not settle; take more cells, or another load",
+        outcome=Outcome.STALLED,
+        iterations=MAX_STEPS,
+    )
+
+
+def _rate(film: FreeFilm) -> float:
+    """The rate at which the shaft turns, rad/s, or at which the load would close the clearance at rest."""
+    scene = film.scene
+    return max(abs(scene.motion.speed) / scene.geometry.length * 2 * np.pi, 1e-6)
+
+
+def _holding(film: FreeFilm, force: Array) -> Array:
+    """The stiffness that holds pads without pressure at their place, shape (coordinates, coordinates)."""
+    unit = film.wall.unit
+    stiff = np.where(film.wall.turns, HOLDING * np.abs(force).max() * unit[0] / unit**2, 0.0)
+    return np.diag(stiff)
+
+
+def refined(coarse: FreeFilm, instant: Instant, fine: FreeFilm) -> Instant:
+    """An instant on a finer grid, from which its equilibrium there is sought."""
+    one, other = coarse.solved, fine.solved
+    state = carried(instant.state, one.grid, other.grid, other.problem.shape.joined)
+    first = fine.first(instant.place)
+    return replace(first, state=state, kind=kinds(first.network, state), pressures=instant.pressures)

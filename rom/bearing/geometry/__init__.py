@@ -1,0 +1,1 @@
+"""The shapes of the films of bearings."""

@@ -1,0 +1,165 @@
+"""A film between two rigid walls, one of which is displaced: its thickness is linear in a few coordinates."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.cavitation.discretise import Faces, faces_of, network, positions
+from roughfilm.rom.cavitation.grid import Grid
+from roughfilm.rom.cavitation.network import Network
+from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.shape import Shape
+
+Normal = Callable[[Array, Array], Array]
+"""normal(x, y), the derivative ∂h/∂q of the film thickness by a coordinate, vectorised."""
+
+
+class Restrictor(Protocol):
+    """The resistance between a supply of lubricant and the film."""
+
+    def flow(self, drop: float) -> tuple[float, float]:
+        """The flow, m³/s, at a pressure drop, Pa, and its derivative, m³/(Pa s)."""
+        ...
+
+
+Covers = Callable[[Array, Array], NDArray[np.bool_]]
+"""covers(x, y), whether positions lie in a part of the film, vectorised."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Inflow:
+    """A part of the film in which the pressure is uniform, since lubricant is supplied there.
+
+    Attributes
+    ----------
+    covers : covers(x, y), whether positions lie in it, vectorised.
+    pressure : pressure of the supply above cavitation pressure, Pa.
+    restrictor : resistance between the supply and the film; without one the film has the pressure of the supply.
+    """
+
+    covers: Covers
+    pressure: float
+    restrictor: Restrictor | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class MovingFilm:
+    """The film h = h₀ + Σ q_k n_k(x, y) on a grid.
+
+    Attributes
+    ----------
+    problem : the film at q = 0; its thickness, which may be negative there, is h₀.
+    grid : the grid.
+    normals : n_k = ∂h/∂q_k of each coordinate.
+    inflows : parts of the film in which lubricant is supplied.
+    ambient : pressure on the other sides of the walls above cavitation pressure, Pa.
+    halved : whether y = low is a line of symmetry, through which nothing flows, in place of a side.
+    ruptures : whether the film cavitates.
+    """
+
+    problem: Problem
+    grid: Grid
+    normals: tuple[Normal, ...]
+    inflows: tuple[Inflow, ...] = ()
+    ambient: float = 0.0
+    halved: bool = False
+    ruptures: bool = True
+
+    @cached_property
+    def _sampled(self) -> list[tuple[Array, Array]]:
+        """h₀, and n of each coordinate in its last axis, at every position at which the film is sampled."""
+        return [(self.problem.shape.thickness(x, y), self.modes(x, y)) for x, y in positions(self.grid)]
+
+    def modes(self, x: Array, y: Array) -> Array:
+        """∂h/∂q of each coordinate at positions, in the last axis."""
+        return np.stack([np.broadcast_to(normal(x, y), x.shape) for normal in self.normals], axis=-1)
+
+    @cached_property
+    def at_nodes(self) -> Array:
+        """∂h/∂q at the nodes, shape (nx, ny, coordinates)."""
+        x, y = np.meshgrid(self.grid.x, self.grid.y, indexing="ij")
+        return self.modes(x, y)
+
+    @cached_property
+    def covered(self) -> tuple[NDArray[np.bool_], ...]:
+        """The nodes of every inflow, each at least one."""
+        x, y = np.meshgrid(self.grid.x, self.grid.y, indexing="ij")
+        return tuple(np.asarray(inflow.covers(x, y)) for inflow in self.inflows)
+
+    @cached_property
+    def restricted(self) -> tuple[int, ...]:
+        """The numbers of the inflows behind restrictors."""
+        return tuple(number for number, inflow in enumerate(self.inflows) if inflow.restrictor is not None)
+
+    @property
+    def sides(self) -> float:
+        """The number of halves of the film: forces and flows of the nodes count as often."""
+        return 2.0 if self.halved else 1.0
+
+    def shape(self, place: Array) -> Shape:
+        """The shape of the film at coordinates q."""
+        rest = self.problem.shape.thickness
+
+        def thickness(x: Array, y: Array) -> Array:
+            x, y = np.broadcast_arrays(x, y)
+            return np.asarray(rest(x, y) + self.modes(x, y) @ place)
+
+        return replace(self.problem.shape, thickness=thickness)
+
+    def faces(self, place: Array) -> Faces:
+        """The film sampled on the grid at coordinates q."""
+        return faces_of((rest + modes @ place for rest, modes in self._sampled), self.shape(place), self.grid)
+
+    def network(
+        self,
+        faces: Faces,
+        pressures: Array,
+        *,
+        speed: float,
+        storage: tuple[float | Array, Array | float] | None = None,
+    ) -> Network:
+        """The network of the film, with the pressure of each inflow in the film, Pa above cavitation pressure.
+
+        ``speed`` and ``storage`` are those of :func:`roughfilm.rom.cavitation.discretise.network`.
+        """
+        net = network(
+            self.grid,
+            faces,
+            self.problem.ends,
+            speed=speed,
+            viscosity=self.problem.viscosity,
+            compressibility=self.problem.initial_compressibility,
+            storage=storage,
+            ruptures=self.ruptures,
+        )
+        if net.oblique is not None:
+            raise InputError(
+                "roughness: got an averaged oblique lay for walls that move freely; take roughness along or across the "
+                "sliding"
+            )
+        if self.halved:
+            inner = slice(None) if net.periodic[0] else slice(1, -1)
+            net.fixed[inner, 0] = False
+        for nodes, pressure in zip(self.covered, pressures, strict=True):
+            net.fixed[nodes], net.pressure[nodes] = True, pressure
+        return net
+
+    def force(self, pressure: Array) -> Array:
+        """∫ (p - p_ambient) ∂h/∂q dA of each coordinate, N (N m of an angle), from p at the nodes, Pa."""
+        return np.asarray(np.tensordot(pressure - self.ambient, self.weights, axes=2))
+
+    @cached_property
+    def weights(self) -> Array:
+        """The force on each coordinate by a pressure at each node, m² (m³ of an angle), in the last axis."""
+        return self.sides * self.grid.areas[:, :, None] * self.at_nodes
+
+    @cached_property
+    def reach(self) -> Array:
+        """The largest |∂h/∂q| of each coordinate."""
+        return np.asarray(np.abs(self.at_nodes).max(axis=(0, 1)))

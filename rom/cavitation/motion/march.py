@@ -1,0 +1,276 @@
+"""Films in time: the wall moves as given, or as the forces on it make it move."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
+from roughfilm.rom.cavitation.motion.film import MovingFilm
+from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
+
+MAX_GROWTH, MIN_GROWTH, SAFETY = 2.0, 0.2, 0.85
+"""Largest and smallest ratio of successive time steps, and the fraction of the one that the error allows."""
+
+EMPTY = -1e-9
+"""Smallest filling fraction; a step of second order that drains a node further is repeated with first order."""
+
+MIN_STEP = 1e-9
+"""Smallest time step over the largest one, below which the march stops."""
+
+FIRST_STEP = 1e-3
+"""First time step over the largest one: it has first order, since no earlier film is known."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Course:
+    """What moves the wall of a film; coordinates q as in :class:`roughfilm.rom.cavitation.motion.film.MovingFilm`.
+
+    Attributes
+    ----------
+    free : whether each coordinate moves as its forces make it move.
+    place : place(t), the coordinates that are given, m (rad); free ones have no effect.
+    speed : speed(t) of the sliding wall, m/s, at least 0.
+    force : force(t) on each coordinate besides that of the film, N (N m).
+    mass : mass matrix, kg (kg m²); coordinates without mass move so that their forces balance.
+    stiffness : matrix S of forces -S q of springs, N/m.
+    velocity_scale : size of the velocities, m/s, on which the error of a time step is related, for each coordinate.
+    """
+
+    free: NDArray[np.bool_]
+    place: Callable[[float], Array]
+    speed: Callable[[float], float]
+    force: Callable[[float], Array]
+    mass: Array
+    stiffness: Array
+    velocity_scale: Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class Known:
+    """The coordinates, their velocities, and θh at the nodes, m, at one time, s."""
+
+    time: float
+    place: Array
+    velocity: Array
+    held: Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class Moving:
+    """A film at one time of a march, from which the march can go on.
+
+    Attributes
+    ----------
+    instant : the film.
+    past : what is known at this time and at up to three earlier ones, the latest first.
+    step : the time step that led here, s; 0 at the start.
+    following : the time step that is proposed next, s.
+    order : the order of the step.
+    error : estimated relative error of the velocities of the step.
+    """
+
+    instant: Instant
+    past: tuple[Known, ...]
+    step: float = 0.0
+    following: float = 0.0
+    order: int = 1
+    error: float = 0.0
+
+    @property
+    def now(self) -> Known:
+        """What is known at this time."""
+        return self.past[0]
+
+
+def held(film: MovingFilm, instant: Instant) -> Array:
+    """θh at the nodes, m."""
+    excess = film.problem.compression(instant.state.pressure)[0]
+    return np.asarray((instant.state.fill + excess) * instant.faces.thickness)
+
+
+def begun(film: MovingFilm, instant: Instant, *, time: float = 0.0, velocity: Array | None = None) -> Moving:
+    """The start of a march from a film, with the velocities of the coordinates; at rest by default."""
+    known = Known(
+        time=time,
+        place=instant.place,
+        velocity=np.zeros(instant.place.size) if velocity is None else velocity,
+        held=held(film, instant),
+    )
+    return Moving(instant=instant, past=(known,))
+
+
+def march(
+    film: MovingFilm,
+    course: Course,
+    start: Moving,
+    end: float,
+    *,
+    largest_step: float,
+    error: float | None = 1e-3,
+    tolerance: float = RESIDUAL_TOLERANCE,
+    closest: float = 0.0,
+) -> Iterator[Moving]:
+    """Solve ∂(θh)/∂t + (u/2) ∂(θh)/∂x - ∇·(θh³/12η ∇p) = 0 and M q̈ = F + f(t) - S q to a time.
+
+    Steps follow the two-step backward differentiation formula, which is of second order in time and stable for steps of
+    any length: ẋ ≈ ((1 + 2r)/(1 + r) x₊ - (1 + r) x + r²/(1 + r) x₋)/Δt with the ratio r of the step to the one before.
+    The volume that a film holds changes by what flows in and out, to the tolerance. The first step, and steps that
+    would drain a node below empty, follow backward Euler, of first order.
+
+    Parameters
+    ----------
+    start : the film from which the march goes on.
+    end : the last time, s.
+    largest_step : largest time step, s.
+    error : largest error of a step, of the velocities over ``velocity_scale``; None for steps of ``largest_step``.
+    tolerance : residual at which a step is solved.
+    closest : film thickness, m, below which the march ends with an error.
+
+    Yields
+    ------
+    Each later film.
+
+    Raises
+    ------
+    ConvergenceError
+        If a film becomes thinner than ``closest``, or a step does not converge however short it is.
+
+    Source: Hairer, Nørsett and Wanner 1993, Solving Ordinary Differential Equations I, III.5, for the formula;
+    Elrod 1981, doi:10.1115/1.3251669, for the film.
+    """
+    moving = start
+    size = start.following or (largest_step if error is None else FIRST_STEP * largest_step)
+    while moving.now.time < end - 1e-12 * abs(end):
+        left = end - moving.now.time
+        size = min(size, largest_step, left)
+        if size < left < 2 * size:
+            size = left / 2
+        following = _attempt(film, course, moving, size, order=2 if len(moving.past) > 1 else 1, tolerance=tolerance)
+        ratio = MIN_GROWTH
+        if following is not None:
+            estimate = following.error
+            ratio = MAX_GROWTH
+            if error is not None and estimate > 0:
+                power = 1.0 / (following.order + (1 if len(moving.past) < 3 else 0))
+                ratio = min(max(SAFETY * (error / estimate) ** power, MIN_GROWTH), MAX_GROWTH)
+        if following is None or (error is not None and following.error > error and size > MIN_STEP * largest_step):
+            size *= min(ratio, 0.7)
+            if size < MIN_STEP * largest_step:
+                raise _stopped(moving, closest)
+            continue
+        size *= ratio
+        moving = replace(following, following=size)
+        least = float(moving.instant.faces.thickness.min())
+        if least < closest:
+            raise _stopped(moving, closest)
+        yield moving
+
+
+def _stopped(moving: Moving, closest: float) -> ConvergenceError:
+    least = float(moving.instant.faces.thickness.min())
+    touches = least < 2 * closest
+    reason = (
+        f"the film is {least:.3g} m thick, and the walls touch; lower the load, or raise the viscosity or the speed"
+        if touches
+        else "no time step converges; take more cells"
+    )
+    return ConvergenceError(
+        f"motion: at the time {moving.now.time:.6g} s {reason}",
+        outcome=Outcome.STALLED,
+        iterations=moving.instant.iterations,
+    )
+
+
+def _attempt(
+    film: MovingFilm, course: Course, moving: Moving, size: float, *, order: int, tolerance: float
+) -> Moving | None:
+    """The film after a time step; None if the step does not converge."""
+    time = moving.now.time + size
+    rate, (place, velocity, volume) = differences(moving.past, size, order)
+    guess = np.where(course.free, predicted(moving.past, size), course.place(time))
+    acceleration = rate * place + velocity
+    drive = Drive(
+        speed=course.speed(time),
+        force=course.force(time) + course.mass @ acceleration,
+        stiffness=course.stiffness + rate**2 * course.mass,
+        free=course.free,
+        storage=(rate, volume),
+    )
+    start = replace(moving.instant, place=_open(film, moving.instant, guess))
+    try:
+        instant = settled(film, start, drive, tolerance=tolerance)
+    except ConvergenceError:
+        return None
+    if order > 1 and instant.state.fill.min() < EMPTY:
+        return _attempt(film, course, moving, size, order=1, tolerance=tolerance)
+    now = Known(
+        time=time,
+        place=instant.place,
+        velocity=rate * instant.place - place,
+        held=held(film, instant),
+    )
+    past = (now, *moving.past[:3])
+    return Moving(instant=instant, past=past, step=size, order=order, error=_error(past, course, order))
+
+
+def differences(past: tuple[Known, ...], size: float, order: int) -> tuple[float, tuple[Array, Array, Array]]:
+    """The rate a, 1/s, and s of ẋ = a x - s after a step, for the coordinates, their velocities and θh."""
+    last = past[0]
+    if order == 1:
+        return 1 / size, (last.place / size, last.velocity / size, last.held / size)
+    before = past[1]
+    ratio = size / (last.time - before.time)
+    near, far = (1 + ratio) / size, ratio**2 / ((1 + ratio) * size)
+    return (1 + 2 * ratio) / ((1 + ratio) * size), (
+        near * last.place - far * before.place,
+        near * last.velocity - far * before.velocity,
+        near * last.held - far * before.held,
+    )
+
+
+def predicted(past: tuple[Known, ...], size: float) -> Array:
+    """The coordinates after a step, extrapolated from up to three times; at first with the velocity."""
+    last = past[0]
+    if len(past) == 1:
+        return np.asarray(last.place + size * last.velocity)
+    before = past[1]
+    slope = (last.place - before.place) / (last.time - before.time)
+    place = last.place + size * slope
+    if len(past) > 2:
+        older = past[2]
+        bend = (slope - (before.place - older.place) / (before.time - older.time)) / (last.time - older.time)
+        place = place + size * (size + last.time - before.time) * bend
+    return np.asarray(place)
+
+
+def _open(film: MovingFilm, instant: Instant, guess: Array) -> Array:
+    """The guess of the coordinates, moved back so far that no film closes by more than half."""
+    moved = guess - instant.place
+    closing = float((-(film.at_nodes @ moved) / instant.faces.thickness).max())
+    return np.asarray(instant.place + min(1.0, 0.5 / max(closing, 0.5)) * moved)
+
+
+def _error(past: tuple[Known, ...], course: Course, order: int) -> float:
+    """The estimated error of the velocities of a step over their scale, from a difference of the next order.
+
+    The local error of the coordinates is Δt²/2 q̈ of backward Euler, and Δt² (Δt + Δt₋)²/(6 (2Δt + Δt₋)) d³q/dt³ of the
+    two-step formula with the step Δt₋ before; that of the velocities is as many times larger as the formula divides by.
+    """
+    if len(past) < order + 2:
+        return 0.0
+    times = [known.time for known in past[: order + 2]]
+    table = [known.place for known in past[: order + 2]]
+    for level in range(1, order + 2):
+        table = [(table[n] - table[n + 1]) / (times[n] - times[n + level]) for n in range(len(table) - 1)]
+    size, before = times[0] - times[1], times[1] - times[2]
+    if order == 1:
+        local = size**2 * table[0]
+        rate = 1 / size
+    else:
+        local = (size * (size + before)) ** 2 / (2 * size + before) * table[0]
+        rate = (2 * size + before) / (size * (size + before))
+    return float((np.abs(rate * local) / course.velocity_scale).max())
