@@ -152,8 +152,7 @@ class Trial:
     def sizes(self) -> Array:
         """The sum of the sizes of the parts of the force on each coordinate; 1 without any force."""
         film = self.film
-        parts = np.tensordot(np.abs(self.pressure - film.ambient), np.abs(film.weights), axes=2)
-        sizes = parts + np.abs(self.drive.force)
+        sizes = np.abs(self.pressure - film.ambient).ravel() @ np.abs(film.weights) + np.abs(self.drive.force)
         return np.where(sizes > 0, sizes, 1.0)
 
     def by_coordinates(self, *, central: bool = False) -> Array:
@@ -198,11 +197,10 @@ class Trial:
     def force_of(self, response: Response) -> Array:
         """The changes of the force on every coordinate, shape (coordinates, sources)."""
         film = self.film
-        coordinates, sources = film.weights.shape[-1], response.change.shape[-1]
         change = np.where((self.kind == FILM)[..., None], response.change, 0.0)
-        force = film.weights.reshape(-1, coordinates).T @ change.reshape(-1, sources)
+        force = film.weights.T @ change.reshape(self.kind.size, -1)
         for number, pressures in zip(film.restricted, response.pressures, strict=True):
-            force += np.outer(film.weights[film.covered[number]].sum(axis=0), pressures)
+            force += np.outer(film.weights[film.covered[number].ravel()].sum(axis=0), pressures)
         return np.asarray(force)
 
     def step(self) -> tuple[Array, Array, Array]:

@@ -119,10 +119,9 @@ class MovingFilm:
     def faces(self, place: Array) -> Faces:
         """The film sampled on the grid at coordinates q."""
         rest, modes, shapes = self._sampled
-        samples = np.split(rest + modes @ place, np.cumsum([math.prod(shape) for shape in shapes])[:-1])
-        return faces_of(
-            (values.reshape(shape) for values, shape in zip(samples, shapes, strict=True)), self.shape(place), self.grid
-        )
+        samples, ends = rest + modes @ place, np.cumsum([math.prod(shape) for shape in shapes])
+        thickness = (samples[end - math.prod(shape) : end].reshape(shape) for end, shape in zip(ends, shapes, strict=True))
+        return faces_of(thickness, self.shape(place), self.grid)
 
     def network(
         self,
@@ -160,12 +159,12 @@ class MovingFilm:
 
     def force(self, pressure: Array) -> Array:
         """∫ (p - p_ambient) ∂h/∂q dA of each coordinate, N (N m of an angle), from p at the nodes, Pa."""
-        return np.asarray(np.tensordot(pressure - self.ambient, self.weights, axes=2))
+        return np.asarray((pressure - self.ambient).ravel() @ self.weights)
 
     @cached_property
     def weights(self) -> Array:
-        """The force on each coordinate by a pressure at each node, m² (m³ of an angle), in the last axis."""
-        return self.sides * self.grid.areas[:, :, None] * self.at_nodes
+        """The force on each coordinate by a pressure at each node, m² (m³ of an angle), shape (nodes, coordinates)."""
+        return self.sides * self.grid.areas.reshape(-1, 1) * self.at_nodes.reshape(-1, len(self.normals))
 
     @cached_property
     def reach(self) -> Array:
