@@ -38,6 +38,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
 
     ``power_loss`` is the power that the sliding wall takes, F u, on a ring ω M with the torque M = ∫ r dF; what a
     pressure pumps through the film, p Q, is not in it. ``torque`` is F R of a journal and M of a ring.
+    Where the walls approach each other, ``displaced_flow`` is the flow -∫ θ ∂h/∂t dA that they displace.
     ``film_min`` is the least thickness of the film between the mean planes of the walls, at ``film_min_x`` and
     ``film_min_y`` (:func:`roughfilm.rom.bearing.totals.least_film.least_film`), and ``specific_load`` the load over the
     nominal area, p. ``hersey_number`` is ηN/p of a wall that turns N times a second, and ηu/(pL) of one that slides;
@@ -71,6 +72,8 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     for name, flow in (("inlet_flow", flows.inlet), ("outlet_flow", flows.outlet)):
         if flow is not None:
             extensive[name] = (flow, "m^3/s", "m^2/s")
+    if problem.opening is not None:
+        extensive["displaced_flow"] = (flows.displaced, "m^3/s", "m^2/s")
     values: dict[str, tuple[float, str]] = {
         "pressure_max": (peak_pressure(solution) + pc, "Pa"),
         "specific_load": (specific, "Pa"),
@@ -119,18 +122,20 @@ def numbers_of_load(scene: Bearing, specific: float) -> dict[str, float]:
 
 @dataclass(frozen=True, kw_only=True)
 class Flows:
-    """Flows at cavitation density, m³/s (m²/s if infinitely wide): inlet = outlet + low + high.
+    """Flows at cavitation density, m³/s (m²/s if infinitely wide): inlet + displaced = outlet + low + high.
 
     Attributes
     ----------
     inlet, outlet : flow in through the inlet and flow out through the outlet; None of joined pieces.
     low, high : flows out through the sides at the lowest and at the highest y; zero without open sides.
+    displaced : flow -∫ θ ∂h/∂t dA that walls displace which approach each other; negative where they part.
     """
 
     inlet: float | None
     outlet: float | None
     low: float
     high: float
+    displaced: float = 0.0
 
     @property
     def side_leakage(self) -> float:
@@ -144,27 +149,53 @@ def boundary_flows(solution: Solution) -> Flows:
     The control volumes of the outermost rows are half as wide as the others, and the nodes on open sides belong to the
     bath. What flows along such a row enters with it at the inlet, leaves with it at the outlet, and the difference
     passes the side. The flow along it is three quarters that at the side, with the filling of the row next to it, and
-    one quarter that of the row next to it, as the middle of the half row lies a quarter of a cell from the side.
+    one quarter that of the row next to it, as the middle of the half row lies a quarter of a cell from the side. The
+    control volumes of the edges store liquid as the others do where the walls approach each other.
     """
     along, grid, open_sides = flow_along(solution), solution.grid, solution.problem.ends.sides is not None
     across = flow_across(solution) if open_sides else np.zeros((grid.x.size, 2))
     low, high = -float(across[:, 0].sum()), float(across[:, -2].sum())
+    stored = stored_flow(solution)
+    displaced = 0.0 - float(stored.sum())
     if solution.network.periodic[0]:
-        return Flows(inlet=None, outlet=None, low=low, high=high)
+        if open_sides:
+            low, high = low - float(stored[:, 0].sum()), high - float(stored[:, -1].sum())
+        return Flows(inlet=None, outlet=None, low=low, high=high, displaced=displaced)
+    begins, ends = float(stored[0].sum()), float(stored[-1].sum())
     if not open_sides:
-        return Flows(inlet=float(along[0].sum()), outlet=float(along[-2].sum()), low=low, high=high)
+        return Flows(
+            inlet=float(along[0].sum()) + begins,
+            outlet=float(along[-2].sum()) - ends,
+            low=low,
+            high=high,
+            displaced=displaced,
+        )
     fill, couette, widths = solution.state.fill, solution.network.couette, grid.volume_y * grid.radius
     for row, inner in ((0, 1), (-1, -2)):
         filled = along[:, row] + couette[:, row] * (fill[:, inner] - fill[:, row])
         along[:, row] = 0.75 * filled + 0.25 * along[:, inner] * widths[row] / widths[inner]
     through_columns = across[[0, -1], -2] - across[[0, -1], 0]
     passed = along[0] - along[-2]
+    inner = stored[1:-1]
     return Flows(
-        inlet=float(along[0].sum() + through_columns[0]),
-        outlet=float(along[-2].sum() - through_columns[1]),
-        low=low + float(passed[0]),
-        high=high + float(passed[-1]),
+        inlet=float(along[0].sum() + through_columns[0]) + begins,
+        outlet=float(along[-2].sum() - through_columns[1]) - ends,
+        low=low + float(passed[0]) - float(inner[:, 0].sum()),
+        high=high + float(passed[-1]) - float(inner[:, -1].sum()),
+        displaced=displaced,
     )
+
+
+def stored_flow(solution: Solution) -> Array:
+    """The flow θ ∂h/∂t that the control volume of each node takes up, m³/s, shape (nx, ny).
+
+    A node on an open side has the filling of the node next to it, as no liquid enters a cavity through the side.
+    """
+    net, fill = solution.network, solution.state.fill
+    if solution.problem.ends.sides is not None:
+        fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
+    filled = fill + solution.problem.compression(solution.state.pressure)[0]
+    return np.asarray(net.storage * filled - net.stored)
 
 
 def film_ends(solution: Solution, row: int) -> tuple[float, float]:

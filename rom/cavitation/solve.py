@@ -124,7 +124,7 @@ def solve(
         problem = mirrored(problem)
     if problem.speed == 0 and problem.opening is None:
         ruptures = False  # without motion the pressure lies between those of the ends
-    if not ruptures:
+    if not ruptures or problem.speed == 0:  # without sliding nothing is carried in
         problem = replace(problem, ends=replace(problem.ends, inlet=problem.ends.inlet or 0.0))
     wide = problem.shape.wide
     given = start is not None
