@@ -31,7 +31,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
 
     Pressures are above ambient. ``film_start`` and ``rupture`` are the positions x/L from the inlet, on the line of the
     maximum pressure, where the first film begins and the last one ruptures; both are 1 without a film. Of joined pieces
-    without an inlet, ``side_leakage`` is what passes from one side to the other. The friction of the liquid is
+    without an inlet, ``side_leakage`` is what leaves through a side. The friction of the liquid is
     F = ∫(η ξ u/h + h/2 ∂p/∂x) dA, where a cavity has streamers from wall to wall over its filled fraction ξ;
     with averaged roughness it is F = ∫(ηu (g (d + 3e) + (ξ - g) B₁ <h⁻²>) + B·∇p/2) dA with the wetness g of the tips
     after :mod:`roughfilm.rom.cavitation.oblique`, which is 1 in a film.
@@ -139,8 +139,10 @@ class Flows:
 
     @property
     def side_leakage(self) -> float:
-        """The net flow out through both sides; without an inlet what passes from one side to the other."""
-        return max(self.low, self.high) if self.inlet is None else self.low + self.high
+        """The net flow out through both sides; without an inlet what leaves through one side or both."""
+        if self.inlet is not None:
+            return self.low + self.high
+        return max(self.low, self.high) if self.displaced == 0 else max(self.low, 0.0) + max(self.high, 0.0)
 
 
 def boundary_flows(solution: Solution) -> Flows:
@@ -176,12 +178,12 @@ def boundary_flows(solution: Solution) -> Flows:
         along[:, row] = 0.75 * filled + 0.25 * along[:, inner] * widths[row] / widths[inner]
     through_columns = across[[0, -1], -2] - across[[0, -1], 0]
     passed = along[0] - along[-2]
-    inner = stored[1:-1]
+    beside = stored[1:-1]
     return Flows(
         inlet=float(along[0].sum() + through_columns[0]) + begins,
         outlet=float(along[-2].sum() - through_columns[1]) - ends,
-        low=low + float(passed[0]) - float(inner[:, 0].sum()),
-        high=high + float(passed[-1]) - float(inner[:, -1].sum()),
+        low=low + float(passed[0]) - float(beside[:, 0].sum()),
+        high=high + float(passed[-1]) - float(beside[:, -1].sum()),
         displaced=displaced,
     )
 
