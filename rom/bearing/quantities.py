@@ -10,6 +10,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.supply.quantities import supply_values
 from roughfilm.rom.bearing.totals.least_film import least_film
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio, filled_fraction
@@ -21,6 +22,9 @@ from roughfilm.rom.cavitation.solve import Solution
 
 EXACT = ("film_min", "film_min_x", "film_min_y")
 """Quantities that follow from the geometry alone and have no error of the grid."""
+
+ROUND_OFF = 1e-14
+"""Friction over the sum of the sizes of the forces across the film below which it is round-off."""
 
 MIN_MEAN_PRESSURE_RATIO = 1e-6
 """Mean pressure over the maximum pressure below which no friction coefficient is given."""
@@ -40,8 +44,9 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     pressure pumps through the film, p Q, is not in it. ``torque`` is F R of a journal and M of a ring.
     ``film_min`` is the least thickness of the film between the mean planes of the walls, at ``film_min_x`` and
     ``film_min_y`` (:func:`roughfilm.rom.bearing.totals.least_film.least_film`), and ``specific_load`` the load over the
-    nominal area, p. ``hersey_number`` is ηN/p of a wall that turns N times a second, and ηu/(pL) of one that slides;
-    ``sommerfeld_number`` of a journal is ηN/p (R/c)².
+    nominal area, p. ``supply_1_flow`` is what the first supply gives to the film, and ``supply_1_pressure`` the
+    pressure there, behind its restrictor. ``hersey_number`` is ηN/p of a wall that turns N times a second, and ηu/(pL)
+    of one that slides; ``sommerfeld_number`` of a journal is ηN/p (R/c)².
 
     Parameters
     ----------
@@ -58,6 +63,8 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     drag = drag_of_rows(solution)
     rows = drag.rows + boundary
     load, resistance = load_of(scene, scene_positions(solution), force), float(rows.sum() + drag.between.sum())
+    if abs(resistance) <= ROUND_OFF * float(np.abs(force).sum()):
+        resistance = 0.0
     row = int(np.argmax(np.where(solution.kind == FILM, solution.state.pressure, -1.0).max(axis=0)))
     start, end = film_ends(solution, row)
     flows = boundary_flows(solution)
@@ -90,6 +97,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         }
         values |= {name: (value, unit) for name, (value, unit, _) in extensive.items()}
     values |= {f"{name}_per_width": (value / width, unit) for name, (value, _, unit) in extensive.items()}
+    values |= supply_values(scene, solution)
     if isinstance(scene.geometry, Journal):
         values["attitude_angle"] = (journal_load(scene.geometry, scene_positions(solution), force)[0], "deg")
     if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
@@ -119,23 +127,25 @@ def numbers_of_load(scene: Bearing, specific: float) -> dict[str, float]:
 
 @dataclass(frozen=True, kw_only=True)
 class Flows:
-    """Flows at cavitation density, m³/s (m²/s if infinitely wide): inlet = outlet + low + high.
+    """Flows at cavitation density, m³/s (m²/s if infinitely wide): inlet and supplies = outlet + low + high.
 
     Attributes
     ----------
     inlet, outlet : flow in through the inlet and flow out through the outlet; None of joined pieces.
     low, high : flows out through the sides at the lowest and at the highest y; zero without open sides.
+    supplied : whether lubricant is supplied inside of the film.
     """
 
     inlet: float | None
     outlet: float | None
     low: float
     high: float
+    supplied: bool
 
     @property
     def side_leakage(self) -> float:
-        """The net flow out through both sides; without an inlet what passes from one side to the other."""
-        return max(self.low, self.high) if self.inlet is None else self.low + self.high
+        """The net flow out through both sides; without inlet and supplies what passes from one side to the other."""
+        return self.low + self.high if self.supplied or self.inlet is not None else max(self.low, self.high)
 
 
 def boundary_flows(solution: Solution) -> Flows:
@@ -149,10 +159,12 @@ def boundary_flows(solution: Solution) -> Flows:
     along, grid, open_sides = flow_along(solution), solution.grid, solution.problem.ends.sides is not None
     across = flow_across(solution) if open_sides else np.zeros((grid.x.size, 2))
     low, high = -float(across[:, 0].sum()), float(across[:, -2].sum())
+    supplied = bool(solution.problem.inflows)
     if solution.network.periodic[0]:
-        return Flows(inlet=None, outlet=None, low=low, high=high)
+        return Flows(inlet=None, outlet=None, low=low, high=high, supplied=supplied)
     if not open_sides:
-        return Flows(inlet=float(along[0].sum()), outlet=float(along[-2].sum()), low=low, high=high)
+        inlet, outlet = float(along[0].sum()), float(along[-2].sum())
+        return Flows(inlet=inlet, outlet=outlet, low=low, high=high, supplied=supplied)
     fill, couette, widths = solution.state.fill, solution.network.couette, grid.volume_y * grid.radius
     for row, inner in ((0, 1), (-1, -2)):
         filled = along[:, row] + couette[:, row] * (fill[:, inner] - fill[:, row])
@@ -164,6 +176,7 @@ def boundary_flows(solution: Solution) -> Flows:
         outlet=float(along[-2].sum() - through_columns[1]),
         low=low + float(passed[0]),
         high=high + float(passed[-1]),
+        supplied=supplied,
     )
 
 

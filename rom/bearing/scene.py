@@ -14,17 +14,19 @@ from roughfilm.rom.bearing.geometry.lobes import DOWN
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import SHAPES, AnyShape
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
+from roughfilm.rom.bearing.supply.patches import Patch, patches, supplied
+from roughfilm.rom.bearing.supply.tables import MAX_SUPPLIES, AnySupply
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
 from roughfilm.rom.parts.fluid import Fluid
+from roughfilm.rom.parts.surroundings import GaugePressure
 
 if TYPE_CHECKING:
     from roughfilm.rom.cavitation.discretise import Ends
-    from roughfilm.rom.cavitation.problem import Problem
+    from roughfilm.rom.cavitation.problem import Inflow, Problem
 
-GaugePressure = Annotated[float, InUnit("Pa", any_sign=True)]
 Speed = Annotated[float, InUnit("m/s", any_sign=True)]
 Viscosity = Annotated[float, InUnit("Pa*s")]
 Density = Annotated[float, InUnit("kg/m^3")]
@@ -178,6 +180,7 @@ class Bearing(Scene):
     roughness: AnyRoughness | None = None
     asperities: AsperityContact | None = None
     load: BearingLoad | None = None
+    supply: Annotated[tuple[AnySupply, ...], Field(max_length=MAX_SUPPLIES)] = ()
 
     @field_validator("geometry", mode="before")
     @classmethod
@@ -224,7 +227,8 @@ class Bearing(Scene):
                 self.lubricant.compressibility.pressure_at(theta)
             except InputError as error:
                 raise ValueError(f"boundary.inlet.{error}") from None
-        if isinstance(self.geometry, Ring) and self.geometry.endless:
+        self._can_be_supplied()
+        if isinstance(self.geometry, Ring) and self.geometry.endless and not self.supply:
             self._can_be_joined()
         if self.wide and self.boundary.sides != Sides():
             raise ValueError("boundary.sides: got pressures for an infinitely wide bearing; remove them or add a width")
@@ -262,11 +266,29 @@ class Bearing(Scene):
                 "load.force: is that of the whole bearing, whose number of pads is unknown; give geometry.pads, or "
                 "load.pressure"
             )
-        if self.motion.speed == 0 and self.asperities is None:
+        if self.motion.speed == 0 and self.asperities is None and not self.supply:
             raise ValueError(
                 "motion.speed: got 0 m/s under a load; a film without sliding carries none by its thickness, give a "
-                "speed, or [asperities] that touch"
+                "speed, [[supply]] behind restrictors, or [asperities] that touch"
             )
+
+    def _can_be_supplied(self) -> None:
+        """Raise ValueError if a supply lies outside of the film, or its pressure is below that of cavitation."""
+        lowest = self.lubricant.cavitation_pressure
+        for number, supply in enumerate(self.supply):
+            if supply.pressure is not None and supply.pressure < lowest:
+                raise ValueError(
+                    f"supply.{number}.pressure: got {supply.pressure!r} Pa; it must be at least the cavitation "
+                    f"pressure, {lowest!r} Pa"
+                )
+            if supply.orifice is not None and self.lubricant.density is None:
+                raise ValueError(
+                    f"supply.{number}.orifice: got one without lubricant.density, by which its flow is determined; "
+                    "give the density"
+                )
+        if self.supply and self.asperities is not None:
+            raise ValueError("asperities: got a table with [[supply]], inside of which no asperities touch; leave one out")
+        patches(self.geometry, self.supply)
 
     def _can_touch(self, asperities: AsperityContact) -> None:
         if not isinstance(self.roughness, RoughSurface | StoredTable):
@@ -364,14 +386,34 @@ class Bearing(Scene):
             sides=None if self.wide else sides,
         )
 
+    @property
+    def supply_patches(self) -> tuple[Patch, ...]:
+        """Where the supplies lie in the film."""
+        return patches(self.geometry, self.supply)
+
+    @property
+    def inflows(self) -> "tuple[Inflow, ...]":
+        """The inflows of the supplies."""
+        from roughfilm.rom.bearing.supply.restrictors import inflows  # slow to import
+
+        return inflows(
+            self.supply_patches,
+            self.supply,
+            viscosity=self.lubricant.viscosity,
+            density=self.lubricant.density,
+            cavitation_pressure=self.lubricant.cavitation_pressure,
+        )
+
     def problem(self) -> "Problem":
         """The problem of the film without roughness."""
         from roughfilm.rom.cavitation.problem import Problem  # slow to import
 
-        geometry, lubricant = self.geometry, self.lubricant
+        geometry, lubricant, found = self.geometry, self.lubricant, self.supply_patches
         radius = geometry.radius if isinstance(geometry, Ring) else 1.0
+        shape = geometry.film_shape()
         return Problem(
-            shape=geometry.film_shape(),
+            shape=supplied(shape, found) if found else shape,
+            inflows=self.inflows,
             ends=self.ends,
             speed=self.motion.speed / radius,
             viscosity=lubricant.viscosity,

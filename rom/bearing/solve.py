@@ -19,6 +19,7 @@ from roughfilm.rom.bearing.film import Searched, smooth_films
 from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.supply.quantities import supply_warnings
 from roughfilm.rom.bearing.totals.reported import in_order
 from roughfilm.rom.bearing.totals.whole import whole_bearing
 from roughfilm.rom.bearing.uncertainty import POSITIONS, uncertainties
@@ -100,6 +101,7 @@ def solve(
         *rupture_warnings(solution.state.pressure),
         *scene_warnings(scene, solution),
         *window_warnings(found.scene, solution),
+        *supply_warnings(found.scene, solution),
     ]
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)

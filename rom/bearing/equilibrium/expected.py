@@ -86,9 +86,9 @@ def closest_film(scene: Bearing) -> float:
     """The smallest film thickness of a smooth bearing that is tried, m.
 
     It is above the dip of waves by ``MIN_FILM_RATIO`` times the variation of the film thickness; between parallel walls
-    times the film thickness at which 6ηuL/h² is the load over the nominal area.
+    times the film thickness at which 6ηuL/h² is the load over the nominal area, or that of a film behind restrictors.
     """
-    least = MIN_FILM_RATIO * (_variation(scene) or _scale(scene))
+    least = MIN_FILM_RATIO * (_variation(scene) or _scale(scene) or MIN_FILM_RATIO * scene.geometry.widest)
     return min(scene.geometry.dip * MIN_FILM_OVER_PEAK + least, scene.geometry.widest / 2)
 
 
@@ -105,8 +105,8 @@ def first_film(scene: Bearing, closest: float) -> float:
     if isinstance(geometry, Journal):
         return FIRST_OFF_CENTRE * geometry.clearance
     rise, scale = _variation(scene), _scale(scene)
-    if rise == 0 or scale == 0:
-        return max(scale, 2 * closest)
+    if rise == 0 or scale == 0 or scene.supply:
+        return min(max(scale, 2 * closest), geometry.widest / 2)
     share = 1.0 if geometry.width is None else 1 / (1 + (geometry.length / geometry.width) ** 2)
 
     def excess(logarithm: float) -> float:
@@ -122,10 +122,20 @@ def first_film(scene: Bearing, closest: float) -> float:
 
 
 def _scale(scene: Bearing) -> float:
-    """The film thickness at which 6ηuL/h² is the load over the nominal area, m."""
+    """The film thickness at which 6ηuL/h² is the load over the nominal area, m; at least that of a restricted film."""
     assert scene.load_pressure is not None
     sheared = 6 * scene.lubricant.viscosity * abs(scene.motion.speed) * scene.geometry.length
-    return math.sqrt(sheared / scene.load_pressure)
+    return max(math.sqrt(sheared / scene.load_pressure), _fed(scene))
+
+
+def _fed(scene: Bearing) -> float:
+    """The film thickness whose resistance 12η/h³ is that of a restrictor at half of its pressure, m; 0 without one."""
+    viscosity, films = scene.lubricant.viscosity, [0.0]
+    for inflow in scene.inflows:
+        if inflow.restrictor is not None:
+            drop = inflow.pressure / 2 or scene.load_pressure or 0.0
+            films.append((12 * viscosity * abs(inflow.restrictor.flow(drop)[0]) / drop) ** (1 / 3))
+    return max(films)
 
 
 def _variation(scene: Bearing) -> float:

@@ -23,6 +23,8 @@ def applies(scene: Bearing) -> Applicability:
     width = scene.geometry.width
     if width is None:
         return Applicability(applies=False, reason="the bearing is infinitely wide; use reynolds_cavitating")
+    if scene.supply:
+        return Applicability(applies=False, reason="supplies inside the film have an extent across, which one line lacks")
     if isinstance(scene.geometry, Ring) and scene.geometry.endless:
         return Applicability(
             applies=False, reason="joined pads are fed through their sides, which one line does not have"

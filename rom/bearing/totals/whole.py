@@ -16,6 +16,7 @@ ADDED = (
     "inlet_flow",
     "outlet_flow",
     "side_leakage",
+    "supply_flow",
     "contact_load",
     "film_load",
 )
