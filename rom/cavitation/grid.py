@@ -1,6 +1,6 @@
 """Nodes over the plane of a film, one at every break of its thickness, and their control volumes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -56,6 +56,18 @@ def grid(shape: Shape, cells: tuple[int, int]) -> Grid:
         volume_x=volume_x,
         volume_y=volume_y,
         radius=y if shape.polar else np.ones_like(y),
+    )
+
+
+def doubled(half: Grid) -> Grid:
+    """The grid over both halves of a film that is symmetric about the first row of nodes of a half, not periodic in y."""
+
+    return replace(
+        half,
+        y=np.concatenate([2 * half.y[0] - half.y[:0:-1], half.y]),
+        spacing_y=np.concatenate([half.spacing_y[-2::-1], half.spacing_y]),
+        volume_y=np.concatenate([half.volume_y[:0:-1], 2 * half.volume_y[:1], half.volume_y[1:]]),
+        radius=np.concatenate([half.radius[:0:-1], half.radius]),
     )
 
 

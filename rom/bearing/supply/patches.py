@@ -98,14 +98,18 @@ def _patch(geometry: AnyShape, supply: Supply) -> Patch:
     allowed = ("angle", "radius") if ring else ("angle", "y") if shaft else ("x", "y")
     for name in ("x", "angle", "y", "radius"):
         if getattr(supply, name) is not None and name not in allowed:
-            raise ValueError(f"{name}: got one for the shape {geometry.shape}; its positions are {' and '.join(allowed)}")
+            raise ValueError(
+                f"{name}: got one for the shape {geometry.shape}; its positions are {' and '.join(allowed)}"
+            )
     along, across = supply.sides
     length = geometry.length
     for name, side in (("length", along), ("extent", across)):
         zero = name == "length" and isinstance(supply, Groove) and side == 0
         if side is not None and side < LEAST_SIDE * length and not zero:
             key = "diameter" if supply.kind == "hole" else name
-            raise ValueError(f"{key}: got {side:.4g} m; it must be at least {LEAST_SIDE * length:.2g} m, check the units")
+            raise ValueError(
+                f"{key}: got {side:.4g} m; it must be at least {LEAST_SIDE * length:.2g} m, check the units"
+            )
     if wide and (across is not None or supply.y is not None):
         raise ValueError(f"kind: got a {supply.kind} with an extent in an infinitely wide film; give the film a width")
     if wide and supply.restricted:

@@ -46,7 +46,9 @@ def supply_warnings(scene: Bearing, solution: Solution) -> list[str]:
     for number, supply in enumerate(scene.supply, start=1):
         flow = next(value for name, (value, _) in values.items() if name.startswith(f"supply_{number}_flow"))
         if flow < 0:
-            warnings.append(f"supply.{number - 1}: takes {-flow:.3g} {'m^2/s' if scene.wide else 'm^3/s'} from the film")
+            warnings.append(
+                f"supply.{number - 1}: takes {-flow:.3g} {'m^2/s' if scene.wide else 'm^3/s'} from the film"
+            )
         if density is None:
             continue
         if supply.capillary is not None:

@@ -69,7 +69,11 @@ class Supply(Part):
     @model_validator(mode="after")
     def _one_source(self) -> Self:
         if (self.pressure is None) == (self.flow is None):
-            got = "is missing; give it, or a flow" if self.pressure is None else "got both a pressure and a flow; give one"
+            got = (
+                "is missing; give it, or a flow"
+                if self.pressure is None
+                else "got both a pressure and a flow; give one"
+            )
             raise ValueError(f"pressure: {got}")
         restrictors = [name for name in ("capillary", "orifice") if getattr(self, name) is not None]
         if len(restrictors) > 1:
@@ -163,6 +167,7 @@ class Pocket(Supply):
         """The lengths along and across the sliding, m; None for the whole film."""
         return self.length, self.extent
 
+
 SUPPLIES: dict[str, type[Supply]] = {"groove": Groove, "hole": Hole, "pocket": Pocket}
 
 
@@ -174,6 +179,4 @@ def _names_a_kind(entries: Any) -> Any:
     return entries
 
 
-AnySupply = Annotated[
-    Annotated[Groove | Hole | Pocket, Field(discriminator="kind")], BeforeValidator(_names_a_kind)
-]
+AnySupply = Annotated[Annotated[Groove | Hole | Pocket, Field(discriminator="kind")], BeforeValidator(_names_a_kind)]

@@ -76,6 +76,8 @@ def _pull(solution: Solution) -> Array:
         share = _share_inside(solution, inflow)
         recess = RECESS_FRICTION * problem.viscosity * speed * thicker / (solution.faces.thickness + inflow.depth)
         pull += share * (recess * stretch - pull)
+    if problem.shape.idle:
+        pull[problem.shape.is_idle(grid.x + grid.spacing_x / 2)] = 0.0
     return pull
 
 
