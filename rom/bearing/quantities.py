@@ -277,7 +277,8 @@ def _of_shaft(geometry: Lobes, x: Array, force: Array) -> dict[str, tuple[float,
         "eccentricity_x": (along_x, "1"),
         "eccentricity_y": (along_y, "1"),
     }
-    if math.hypot(push_x, push_y) and math.hypot(along_x, along_y):
+    pushed = math.hypot(push_x, push_y) > ROUND_OFF * float(np.abs(force).sum())
+    if pushed and math.hypot(along_x, along_y):
         turned = math.atan2(along_y, along_x) - math.atan2(-push_y, -push_x)
         values["attitude_angle"] = (abs(math.degrees(math.remainder(turned, 2 * math.pi))), "deg")
     return values

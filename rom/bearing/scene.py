@@ -289,9 +289,7 @@ class Bearing(Scene):
                     "give the density"
                 )
         if self.supply and self.asperities is not None:
-            raise ValueError(
-                "asperities: got a table with [[supply]], inside of which no asperities touch; leave one out"
-            )
+            raise ValueError("asperities: got a table with [[supply]], inside of which none touch; leave one out")
         patches(self.geometry, self.supply)
 
     def _can_touch(self, asperities: AsperityContact) -> None:

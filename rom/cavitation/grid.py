@@ -60,8 +60,7 @@ def grid(shape: Shape, cells: tuple[int, int]) -> Grid:
 
 
 def doubled(half: Grid) -> Grid:
-    """The grid over both halves of a film that is symmetric about the first row of nodes of a half, not periodic in y."""
-
+    """The grid over both halves of a film that is symmetric about the first row of nodes of one half."""
     return replace(
         half,
         y=np.concatenate([2 * half.y[0] - half.y[:0:-1], half.y]),

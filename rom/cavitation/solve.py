@@ -54,7 +54,7 @@ NEGATIVE_FILL_TOLERANCE = 1e-6
 """Tolerated negative filling fraction (round-off)."""
 
 SUPPLIED_RESIDUAL = 1e-11
-"""Largest residual at which a film with inflows is solved: the flows of all its nodes add up to those of the inflows."""
+"""Largest residual at which a film with inflows is solved, whose flows are sums over many nodes."""
 
 WARM_UP_CELLS = 40
 """Number of cells of a film on which every compiled loop runs once."""

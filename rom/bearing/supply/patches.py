@@ -163,11 +163,11 @@ def _range(geometry: AnyShape, supply: Supply, along: float, period: float, slac
         middle = math.remainder(middle - length / 2, 2 * math.pi * unit) + length / 2
     first, last = middle - along / 2, middle + along / 2
     if period and along >= period - slack:
-        raise ValueError(f"length: got one as long as the film; leave it out for a groove along all of the film")
+        raise ValueError("length: got one as long as the film; leave it out for a groove along all of the film")
     if not period and (first <= slack or last >= length - slack):
         shown = [(place / unit + start) if shaft else place for place in (first, last, 0.0, length)]
         raise ValueError(
-            "{}: reaches from {:.6g} to {:.6g} {u}; it must lie inside of the film between {:.6g} and {:.6g} {u}".format(
+            "{}: reaches from {:.6g} to {:.6g} {u}; it must lie inside of the film from {:.6g} to {:.6g} {u}".format(
                 key, *shown, u="m" if key == "x" else "rad"
             )
         )

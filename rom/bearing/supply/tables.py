@@ -44,6 +44,7 @@ class Supply(Part):
 
     Attributes
     ----------
+    kind : "groove", "hole" or "pocket".
     x : position of the middle along the sliding, of a pad, m.
     angle : angle of the middle: of a journal from the widest place, of lobes from the x axis, of a sector or a washer
         from its inlet, rad.
@@ -56,6 +57,7 @@ class Supply(Part):
     depth : depth below the wall around it, m, for the friction inside; without it there is none.
     """
 
+    kind: str
     x: Coordinate | None = None
     angle: Angle | None = None
     y: Coordinate | None = None
