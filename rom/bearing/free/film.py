@@ -127,7 +127,7 @@ def free_film(
         problem,
         shape=replace(
             problem.shape,
-            thickness=lambda x, y: shaped(x, y) - sum(n(x, y) * q for n, q in zip(modes, place, strict=True)),
+            thickness=lambda x, y: shaped(x, y) - sum(n(x, y) * q for n, q in zip(wall.normals, place, strict=True)),
         ),
     )
     gaps = _gaps(scene, geometry)

@@ -13,7 +13,7 @@ from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import AnyShape
-from roughfilm.rom.bearing.supply.tables import Groove, Supply
+from roughfilm.rom.bearing.supply.tables import Groove, Hole, Supply
 from roughfilm.rom.cavitation.shape import Shape
 
 AT_EDGE = 1e-9
@@ -104,12 +104,11 @@ def _patch(geometry: AnyShape, supply: Supply) -> Patch:
     along, across = supply.sides
     length = geometry.length
     for name, side in (("length", along), ("extent", across)):
-        zero = name == "length" and isinstance(supply, Groove) and side == 0
-        if side is not None and side < LEAST_SIDE * length and not zero:
-            key = "diameter" if supply.kind == "hole" else name
-            raise ValueError(
-                f"{key}: got {side:.4g} m; it must be at least {LEAST_SIDE * length:.2g} m, check the units"
-            )
+        if side is not None and side < LEAST_SIDE * length and not (side == 0 and isinstance(supply, Groove)):
+            shown = (supply.diameter, supply.diameter / side) if isinstance(supply, Hole) else (side, 1.0)
+            key = "diameter" if isinstance(supply, Hole) else name
+            least = LEAST_SIDE * length * shown[1]
+            raise ValueError(f"{key}: got {shown[0]!r} m; it must be at least {least:.2g} m, check the units")
     if wide and (across is not None or supply.y is not None):
         raise ValueError(f"kind: got a {supply.kind} with an extent in an infinitely wide film; give the film a width")
     if wide and supply.restricted:
