@@ -34,7 +34,7 @@ def solved(supply, geometry=None, *, model="reynolds_cavitating", cells=32, **ta
 
 
 def independent(nx, ny, place):
-    """Force on the shaft and side leakage with GROOVE by five-point differences of ∇·(h³∇p) = 6ηu ∂h/∂x, θ from the x axis.
+    """Force on the shaft and side leakage with GROOVE by five-point differences of ∇·(h³∇p) = 6ηu ∂h/∂x.
 
     The nodes in the groove, also at its edges, have its pressure; half of the width, from its middle, is solved.
     """
