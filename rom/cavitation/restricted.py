@@ -1,6 +1,7 @@
 """Films that are fed behind restrictors, whose pressures in the film are sought."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,9 @@ INNER_ITERATIONS = 200
 
 INNER_TOLERANCE = 1e-13
 """Relative change of a pressure at which these steps stop."""
+
+RESPONSE_ACCURACY = 1e-3
+"""Residual of a response to a pressure behind a restrictor, over the norm of its source."""
 
 LOWERED = 0.1
 """Factor of a pressure above cavitation pressure in a step that would take it below."""
@@ -75,29 +79,24 @@ def fed(
         If a film or the pressures do not converge, or a film takes in more than a restrictor passes.
     """
     free = [number for number, one in enumerate(inflows) if one.restrictor is not None]
-    pressures, start = pressures.copy(), None
+    pressures = pressures.copy()
     for nodes, pressure in zip(covered, pressures, strict=True):
         network.fixed[nodes], network.pressure[nodes] = True, pressure
     found, wrong = settled(None), np.inf
+    steps = found.iterations
     for iteration in range(ITERATIONS if free else 0):
         flows, slopes, largest, rest = _flows(network, fluid, found, [covered[number] for number in free], step)
         passed = _passed(inflows, free, pressures[free])[0]
         before, wrong = wrong, float(np.abs(flows - passed).max()) / largest
         if wrong <= tolerance or (wrong > FALL * before and wrong <= rest / largest):
-            return Settled(
-                state=found.state,
-                kind=found.kind,
-                residual=max(found.residual, wrong),
-                imbalance=found.imbalance,
-                iterations=found.iterations,
-            )
+            return replace(found, residual=max(found.residual, wrong), iterations=steps)
         if iteration == ITERATIONS - 1:
             break
         pressures[free] = _balanced(inflows, free, flows, slopes, pressures[free], ruptures=ruptures)
         for number in free:
             network.pressure[covered[number]] = pressures[number]
-        start = found.state
-        found = settled(start)
+        found = settled(found.state)
+        steps += found.iterations
     if not free:
         return found
     lowest = int(np.argmin(pressures[free]))
@@ -136,13 +135,13 @@ def _flows(
     known = kind >= FIXED
     flows = np.array([float(linear.balance[nodes].sum()) for nodes in covered])
     slopes = np.empty((len(covered), len(covered)))
-    eliminated = linear.without(known)
+    beside = (np.where(known, 0.0, part) for part in (linear.west, linear.east, linear.south, linear.north))
+    eliminated = Linear(kind, mobility[0], linear.balance, np.where(known, 1.0, linear.centre), *beside)
     for column, nodes in enumerate(covered):
         raised = nodes.astype(float)
         source = np.where(known, 0.0, linear.image(raised))
-        parts_of = (eliminated.centre, eliminated.west, eliminated.east, eliminated.south, eliminated.north)
         size = float(np.sqrt((source * source).sum()))
-        change = step(network, Linear(kind, mobility[0], source, *parts_of), 1e-3 * size) if size else 0.0
+        change = step(network, replace(eliminated, balance=source), RESPONSE_ACCURACY * size) if size else 0.0
         image = linear.image(raised + change)
         slopes[:, column] = [float(image[others].sum()) for others in covered]
     return flows, slopes, largest, float(np.abs(linear.balance[~known]).sum())

@@ -294,7 +294,7 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         change, pressures, places = trial.step()
         moved = np.zeros(trial.place.size)
         moved[free] = places
-        part = _admissible(film, trial.faces.thickness, moved) * _passable(trial, response.pressures[:, 0])
+        part = _admissible(film, trial.faces.thickness, moved) * _passable(trial, pressures)
         trial.place = trial.place + part * moved
         trial.pressures[list(film.restricted)] += part * pressures
         _advance(trial, part * change)
