@@ -11,6 +11,7 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.supply.quantities import supply_values
 from roughfilm.rom.bearing.totals.least_film import least_film
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio, filled_fraction
@@ -22,6 +23,9 @@ from roughfilm.rom.cavitation.solve import Solution
 
 EXACT = ("film_min", "film_min_x", "film_min_y")
 """Quantities that follow from the geometry alone and have no error of the grid."""
+
+ROUND_OFF = 1e-14
+"""Friction over the sum of the sizes of the forces across the film below which it is round-off."""
 
 MIN_MEAN_PRESSURE_RATIO = 1e-6
 """Mean pressure over the maximum pressure below which no friction coefficient is given."""
@@ -42,8 +46,9 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     Where the walls approach each other, ``displaced_flow`` is the flow -∫ θ ∂h/∂t dA that they displace.
     ``film_min`` is the least thickness of the film between the mean planes of the walls, at ``film_min_x`` and
     ``film_min_y`` (:func:`roughfilm.rom.bearing.totals.least_film.least_film`), and ``specific_load`` the load over the
-    nominal area, p. ``hersey_number`` is ηN/p of a wall that turns N times a second, and ηu/(pL) of one that slides;
-    ``sommerfeld_number`` of a journal is ηN/p (R/c)².
+    nominal area, p. ``supply_1_flow`` is what the first supply gives to the film, and ``supply_1_pressure`` the
+    pressure there, behind its restrictor. ``hersey_number`` is ηN/p of a wall that turns N times a second, and ηu/(pL)
+    of one that slides; ``sommerfeld_number`` of a journal is ηN/p (R/c)².
 
     Parameters
     ----------
@@ -60,6 +65,8 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     drag = drag_of_rows(solution)
     rows = drag.rows + boundary
     load, resistance = load_of(scene, scene_positions(solution), force), float(rows.sum() + drag.between.sum())
+    if abs(resistance) <= ROUND_OFF * float(np.abs(force).sum()):
+        resistance = 0.0
     row = int(np.argmax(np.where(solution.kind == FILM, solution.state.pressure, -1.0).max(axis=0)))
     start, end = film_ends(solution, row)
     flows = boundary_flows(solution)
@@ -97,6 +104,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         }
         values |= {name: (value, unit) for name, (value, unit, _) in extensive.items()}
     values |= {f"{name}_per_width": (value / width, unit) for name, (value, _, unit) in extensive.items()}
+    values |= supply_values(scene, solution)
     if isinstance(scene.geometry, Journal):
         values["attitude_angle"] = (journal_load(scene.geometry, scene_positions(solution), force)[0], "deg")
     elif isinstance(scene.geometry, Lobes):
@@ -131,25 +139,29 @@ def numbers_of_load(scene: Bearing, specific: float) -> dict[str, float]:
 
 @dataclass(frozen=True, kw_only=True)
 class Flows:
-    """Flows at cavitation density, m³/s (m²/s if infinitely wide): inlet + displaced = outlet + low + high.
+    """Flows at cavitation density, m³/s (m²/s if infinitely wide).
+
+    What enters, inlet, supplies and displaced, equals what leaves, outlet + low + high.
 
     Attributes
     ----------
     inlet, outlet : flow in through the inlet and flow out through the outlet; None of joined pieces.
     low, high : flows out through the sides at the lowest and at the highest y; zero without open sides.
     displaced : flow -∫ θ ∂h/∂t dA that walls displace which approach each other; negative where they part.
+    supplied : whether lubricant is supplied inside of the film.
     """
 
     inlet: float | None
     outlet: float | None
     low: float
     high: float
+    supplied: bool = False
     displaced: float = 0.0
 
     @property
     def side_leakage(self) -> float:
-        """The net flow out through both sides; without an inlet what leaves through one side or both."""
-        if self.inlet is not None:
+        """The net flow out through both sides; without inlet and supplies what leaves through one side or both."""
+        if self.supplied or self.inlet is not None:
             return self.low + self.high
         return max(self.low, self.high) if self.displaced == 0 else max(self.low, 0.0) + max(self.high, 0.0)
 
@@ -167,18 +179,19 @@ def boundary_flows(solution: Solution) -> Flows:
     across = flow_across(solution) if open_sides else np.zeros((grid.x.size, 2))
     low, high = -float(across[:, 0].sum()), float(across[:, -2].sum())
     stored, idle = stored_flow(solution), solution.problem.shape.idle
-    displaced = 0.0 - float(stored.sum())
+    displaced, supplied = 0.0 - float(stored.sum()), bool(solution.problem.inflows)
     if open_sides:
         beside = stored if solution.network.periodic[0] else stored[1:-1]
         low, high = low - float(beside[:, 0].sum()), high - float(beside[:, -1].sum())
     if solution.network.periodic[0] and not idle:
-        return Flows(inlet=None, outlet=None, low=low, high=high, displaced=displaced)
+        return Flows(inlet=None, outlet=None, low=low, high=high, supplied=supplied, displaced=displaced)
     fill, couette, widths = solution.state.fill, solution.network.couette, grid.volume_y * grid.radius
     for row, inner in ((0, 1), (-1, -2)) if open_sides else ():
         filled = along[:, row] + couette[:, row] * (fill[:, inner] - fill[:, row])
         along[:, row] = 0.75 * filled + 0.25 * along[:, inner] * widths[row] / widths[inner]
     if idle:
-        gap = (solution.kind == FIXED).all(axis=1)
+        within = solution.problem.shape.is_idle(grid.x + grid.spacing_x / 2)
+        gap = within | np.roll(within, 1)
         begins, ends = np.flatnonzero(gap & ~np.roll(gap, -1)), np.flatnonzero(~gap & np.roll(gap, -1))
         low, high = -float(across[~gap, 0].sum()), float(across[~gap, -2].sum())
         entering = leaving = 0.0
@@ -192,6 +205,7 @@ def boundary_flows(solution: Solution) -> Flows:
         outlet=float(along[ends].sum()) + leaving,
         low=low + float(passed[0]),
         high=high + float(passed[-1]),
+        supplied=supplied,
         displaced=displaced,
     )
 
@@ -291,7 +305,8 @@ def _of_shaft(geometry: Lobes, x: Array, force: Array) -> dict[str, tuple[float,
         "eccentricity_x": (along_x, "1"),
         "eccentricity_y": (along_y, "1"),
     }
-    if math.hypot(push_x, push_y) and math.hypot(along_x, along_y):
+    pushed = math.hypot(push_x, push_y) > ROUND_OFF * float(np.abs(force).sum())
+    if pushed and math.hypot(along_x, along_y):
         turned = math.atan2(along_y, along_x) - math.atan2(-push_y, -push_x)
         values["attitude_angle"] = (abs(math.degrees(math.remainder(turned, 2 * math.pi))), "deg")
     return values

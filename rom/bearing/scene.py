@@ -15,18 +15,20 @@ from roughfilm.rom.bearing.geometry.lobes import DOWN, Lobes
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import SHAPES, AnyShape
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
+from roughfilm.rom.bearing.supply.patches import Patch, patches, supplied
+from roughfilm.rom.bearing.supply.tables import MAX_SUPPLIES, AnySupply
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
 from roughfilm.rom.parts.fluid import Fluid
+from roughfilm.rom.parts.surroundings import GaugePressure
 
 if TYPE_CHECKING:
     from roughfilm.rom.cavitation.discretise import Ends
-    from roughfilm.rom.cavitation.problem import Problem
+    from roughfilm.rom.cavitation.problem import Inflow, Problem
     from roughfilm.rom.cavitation.shape import Thickness
 
-GaugePressure = Annotated[float, InUnit("Pa", any_sign=True)]
 Speed = Annotated[float, InUnit("m/s", any_sign=True)]
 Viscosity = Annotated[float, InUnit("Pa*s")]
 Density = Annotated[float, InUnit("kg/m^3")]
@@ -183,6 +185,7 @@ class Bearing(Scene):
     roughness: AnyRoughness | None = None
     asperities: AsperityContact | None = None
     load: BearingLoad | None = None
+    supply: Annotated[tuple[AnySupply, ...], Field(max_length=MAX_SUPPLIES)] = ()
 
     @field_validator("geometry", mode="before")
     @classmethod
@@ -229,6 +232,7 @@ class Bearing(Scene):
                 self.lubricant.compressibility.pressure_at(theta)
             except InputError as error:
                 raise ValueError(f"boundary.inlet.{error}") from None
+        self._can_be_supplied()
         if isinstance(self.geometry, Ring) and self.geometry.endless:
             self._can_be_joined("joined pads")
         elif isinstance(self.geometry, Lobes) and self.geometry.joined:
@@ -274,12 +278,30 @@ class Bearing(Scene):
                 "load.force: is that of the whole bearing, whose number of pads is unknown; give geometry.pads, or "
                 "load.pressure"
             )
-        if self.motion.speed == 0 and self.motion.approach <= 0 and self.asperities is None:
+        if self.motion.speed == 0 and self.motion.approach <= 0 and self.asperities is None and not self.supply:
             parts = " between walls that part" if self.motion.approach else ""
             raise ValueError(
                 f"motion.speed: got 0 m/s under a load; a film without sliding{parts} carries none by its thickness, "
-                "give a speed, an approach above 0 m/s, or [asperities] that touch"
+                "give a speed, an approach above 0 m/s, [[supply]] behind restrictors, or [asperities] that touch"
             )
+
+    def _can_be_supplied(self) -> None:
+        """Raise ValueError if a supply lies outside of the film, or its pressure is below that of cavitation."""
+        lowest = self.lubricant.cavitation_pressure
+        for number, supply in enumerate(self.supply):
+            if supply.pressure is not None and supply.pressure < lowest:
+                raise ValueError(
+                    f"supply.{number}.pressure: got {supply.pressure!r} Pa; it must be at least the cavitation "
+                    f"pressure, {lowest!r} Pa"
+                )
+            if supply.orifice is not None and self.lubricant.density is None:
+                raise ValueError(
+                    f"supply.{number}.orifice: got one without lubricant.density, by which its flow is determined; "
+                    "give the density"
+                )
+        if self.supply and self.asperities is not None:
+            raise ValueError("asperities: got a table with [[supply]], inside of which none touch; leave one out")
+        patches(self.geometry, self.supply)
 
     def _can_touch(self, asperities: AsperityContact) -> None:
         if not isinstance(self.roughness, RoughSurface | StoredTable):
@@ -294,10 +316,10 @@ class Bearing(Scene):
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
         if boundary.inlet != Inlet() or boundary.outlet != Outlet():
             raise ValueError(f"boundary: got an inlet or outlet, but {pieces} have none; leave it out")
-        if max(boundary.sides.low, boundary.sides.high) <= lowest:
+        if max(boundary.sides.low, boundary.sides.high) <= lowest and not self.supply:
             raise ValueError(
                 f"boundary.sides: got no pressure above the cavitation pressure of {lowest!r} Pa; {pieces} are "
-                "fed through their sides, raise one of the two"
+                "fed through their sides, raise one of the two, or give [[supply]]"
             )
 
     @property
@@ -377,14 +399,34 @@ class Bearing(Scene):
             sides=None if self.wide else sides,
         )
 
+    @property
+    def supply_patches(self) -> tuple[Patch, ...]:
+        """Where the supplies lie in the film."""
+        return patches(self.geometry, self.supply)
+
+    @property
+    def inflows(self) -> "tuple[Inflow, ...]":
+        """The inflows of the supplies."""
+        from roughfilm.rom.bearing.supply.restrictors import inflows  # slow to import
+
+        return inflows(
+            self.supply_patches,
+            self.supply,
+            viscosity=self.lubricant.viscosity,
+            density=self.lubricant.density,
+            cavitation_pressure=self.lubricant.cavitation_pressure,
+        )
+
     def problem(self) -> "Problem":
         """The problem of the film without roughness."""
         from roughfilm.rom.cavitation.problem import Problem  # slow to import
 
-        geometry, lubricant = self.geometry, self.lubricant
+        geometry, lubricant, found = self.geometry, self.lubricant, self.supply_patches
         radius = geometry.radius if isinstance(geometry, Ring) else 1.0
+        shape = geometry.film_shape()
         return Problem(
-            shape=geometry.film_shape(),
+            shape=supplied(shape, found) if found else shape,
+            inflows=self.inflows,
             ends=self.ends,
             speed=self.motion.speed / radius,
             viscosity=lubricant.viscosity,

@@ -21,6 +21,7 @@ from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.quantities import EXACT, FILM_OUTPUTS, Fields, Outputs
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.supply.quantities import supply_warnings
 from roughfilm.rom.bearing.totals.reported import in_order
 from roughfilm.rom.bearing.totals.whole import whole_bearing
 from roughfilm.rom.bearing.uncertainty import POSITIONS, uncertainties
@@ -116,6 +117,7 @@ def solve(
         *rupture_warnings(solution.state.pressure),
         *scene_warnings(scene, solution),
         *window_warnings(found.scene, solution),
+        *supply_warnings(found.scene, solution),
     ]
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)

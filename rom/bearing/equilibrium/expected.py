@@ -102,9 +102,10 @@ def closest_film(scene: Bearing) -> float:
     """The smallest film thickness of a smooth bearing that is tried, m.
 
     It is above the dip of waves by ``MIN_FILM_RATIO`` times the variation of the film thickness; between parallel walls
-    times the film thickness at which 6ηuL/h² or 12ηVL²/h³ is the load over the nominal area.
+    times the film thickness at which 6ηuL/h² or 12ηVL²/h³ is the load over the nominal area, or that of a film behind
+    restrictors.
     """
-    least = MIN_FILM_RATIO * (_variation(scene) or _scale(scene))
+    least = MIN_FILM_RATIO * (_variation(scene) or _scale(scene) or MIN_FILM_RATIO * scene.geometry.widest)
     return min(scene.geometry.dip * MIN_FILM_OVER_PEAK + least, scene.geometry.widest / 2)
 
 
@@ -121,7 +122,7 @@ def first_film(scene: Bearing, closest: float) -> float:
     if isinstance(geometry, Journal):
         return FIRST_OFF_CENTRE * geometry.clearance
     rise, scale = _variation(scene), _scale(scene)
-    if rise == 0 or scale == 0 or scene.motion.approach > 0:
+    if rise == 0 or scale == 0 or scene.motion.approach > 0 or scene.supply:
         return min(max(scale, 2 * closest), geometry.widest / 2)
     share = 1.0 if geometry.width is None else 1 / (1 + (geometry.length / geometry.width) ** 2)
 
@@ -138,12 +139,26 @@ def first_film(scene: Bearing, closest: float) -> float:
 
 
 def _scale(scene: Bearing) -> float:
-    """The film thickness at which 6ηuL/h² or 12ηVL²/h³, the greater one, is the load over the nominal area, m."""
+    """The film thickness at which 6ηuL/h² or 12ηVL²/h³ is the load over the nominal area, or of a restricted film, m.
+
+    It is the greatest of these.
+    """
     assert scene.load_pressure is not None
     viscosity, length = scene.lubricant.viscosity, scene.geometry.length
     sheared = 6 * viscosity * abs(scene.motion.speed) * length
     squeezed = 12 * viscosity * max(scene.motion.approach, 0.0) * length**2
-    return max(math.sqrt(sheared / scene.load_pressure), float(np.cbrt(squeezed / scene.load_pressure)))
+    of_squeeze = float(np.cbrt(squeezed / scene.load_pressure))
+    return max(math.sqrt(sheared / scene.load_pressure), of_squeeze, _fed(scene))
+
+
+def _fed(scene: Bearing) -> float:
+    """The film thickness whose resistance 12η/h³ is that of a restrictor at half of its pressure, m; 0 without one."""
+    viscosity, films = scene.lubricant.viscosity, [0.0]
+    for inflow in scene.inflows:
+        if inflow.restrictor is not None:
+            drop = inflow.pressure / 2 or scene.load_pressure or 0.0
+            films.append((12 * viscosity * abs(inflow.restrictor.flow(drop)[0]) / drop) ** (1 / 3))
+    return max(films)
 
 
 def _variation(scene: Bearing) -> float:

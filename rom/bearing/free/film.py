@@ -12,12 +12,14 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import RigidWall
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.cavitation.grid import grid
+from roughfilm.rom.bearing.supply.patches import in_the_middle
+from roughfilm.rom.cavitation.grid import doubled, grid
 from roughfilm.rom.cavitation.motion.coupled import Instant, kinds
-from roughfilm.rom.cavitation.motion.film import Inflow, MovingFilm
+from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import State, Values
-from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import Level, Solution, mirrored
+from roughfilm.rom.cavitation.problem import Inflow, Problem
+from roughfilm.rom.cavitation.restricted import first_pressures
+from roughfilm.rom.cavitation.solve import Level, Solution, mirrored, mirrored_inflow
 
 AT_EDGE = 1e-9
 """Distance from the edge of a groove, over the length of the film, up to which a node lies on it."""
@@ -59,7 +61,7 @@ class FreeFilm:
         """A full film at ambient pressure and given coordinates, from which an iteration starts."""
         film = self.solved
         faces = film.faces(place)
-        pressures = np.array([inflow.pressure for inflow in film.inflows])
+        pressures = first_pressures(film.inflows, film.covered, None)
         net = film.network(faces, pressures, speed=film.problem.speed)
         state = State(pressure=np.where(net.fixed, net.pressure, 0.0), fill=np.ones(net.shape))
         return Instant(
@@ -125,50 +127,51 @@ def free_film(
         problem,
         shape=replace(
             problem.shape,
-            thickness=lambda x, y: shaped(x, y) - sum(n(x, y) * q for n, q in zip(modes, place, strict=True)),
+            thickness=lambda x, y: shaped(x, y) - sum(n(x, y) * q for n, q in zip(wall.normals, place, strict=True)),
         ),
     )
-    inflows = _inflows(scene, geometry)
+    gaps = _gaps(scene, geometry)
     turned = problem.speed < 0
     if turned:
         ends = problem.shape.breaks[0] + problem.shape.breaks[-1]
         at_rest = mirrored(at_rest)
         modes = tuple(_mirrored(normal, ends) for normal in modes)
-        inflows = tuple(replace(one, covers=_mirrored(one.covers, ends)) for one in inflows)
+        gaps = tuple(mirrored_inflow(one, ends) for one in gaps)
+    half = _half(scene, at_rest)
+    count = max(cells[1] // 2, 1)
+    upper = None if half is None else grid(half.shape, (cells[0], count))
     whole = MovingFilm(
         problem=at_rest,
-        grid=grid(at_rest.shape, (cells[0], 2 * max(cells[1] // 2, 1))),
+        grid=grid(at_rest.shape, (cells[0], 2 * count)) if upper is None else doubled(upper),
         normals=modes,
-        inflows=inflows,
+        inflows=(*gaps, *at_rest.inflows),
         ambient=-scene.lubricant.cavitation_pressure,
         ruptures=ruptures,
     )
-    return FreeFilm(scene=scene, wall=wall, whole=whole, solved=_half(scene, whole, cells), turned=turned)
+    solved = whole if half is None or upper is None else replace(whole, problem=half, grid=upper, halved=True)
+    return FreeFilm(scene=scene, wall=wall, whole=whole, solved=solved, turned=turned)
 
 
 def _mirrored(function: Callable[[Array, Array], Values], ends: float) -> Callable[[Array, Array], Values]:
     return lambda x, y: function(ends - x, y)
 
 
-def _half(scene: Bearing, whole: MovingFilm, cells: tuple[int, int]) -> MovingFilm:
-    """The half of the width beyond its middle, if the film is symmetric about it; else the whole film."""
-    geometry, shape = scene.geometry, whole.problem.shape
+def _half(scene: Bearing, whole: Problem) -> Problem | None:
+    """The half of the width beyond its middle, if the film is symmetric about it."""
+    geometry, shape = scene.geometry, whole.shape
     assert isinstance(geometry, Lobes)
     sides = scene.boundary.sides
     rough = scene.roughness is not None and shape.roughness is None
-    if shape.wide or rough or not geometry.symmetric or sides.low != sides.high:
-        return whole
+    symmetric = geometry.symmetric and in_the_middle(scene.supply_patches, shape.across)
+    if shape.wide or rough or not symmetric or sides.low != sides.high:
+        return None
     low, high = shape.across
-    half = replace(shape, across=((low + high) / 2, high))
-    return replace(
-        whole,
-        problem=replace(whole.problem, shape=half),
-        grid=grid(half, (cells[0], max(cells[1] // 2, 1))),
-        halved=True,
-    )
+    middle = (low + high) / 2
+    steps = tuple(step for step in shape.steps_across if step > middle)
+    return replace(whole, shape=replace(shape, across=(middle, high), steps_across=steps))
 
 
-def _inflows(scene: Bearing, geometry: Lobes) -> tuple[Inflow, ...]:
+def _gaps(scene: Bearing, geometry: Lobes) -> tuple[Inflow, ...]:
     """The gaps between lobes, in which the pressure is that of the inlet."""
     edge, pressure = AT_EDGE * geometry.length, scene.inlet_pressure - scene.lubricant.cavitation_pressure
 

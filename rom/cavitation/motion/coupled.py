@@ -24,6 +24,9 @@ MAX_APPROACH = 0.6
 FORCE_TOLERANCE = 1e-9
 """Net force on a coordinate over the sum of the sizes of its parts at which the iteration stops."""
 
+NEAR_LINEAR, MIN_PASSABLE = 0.5, 1e-3
+"""Relative change by which the flow through a restrictor may differ from a linear one in a step, and the least part."""
+
 COLUMNS_KEPT = 5
 """Number of steps for which the derivatives by the coordinates are kept: they change little from step to step."""
 
@@ -275,6 +278,7 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         if not np.isfinite(residual + force_residual):
             break
         if residual <= tolerance and force_residual <= FORCE_TOLERANCE and whole:
+            _check_restrictors(trial)
             return Instant(
                 place=trial.place,
                 pressures=trial.pressures,
@@ -290,7 +294,7 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         change, pressures, places = trial.step()
         moved = np.zeros(trial.place.size)
         moved[free] = places
-        part = _admissible(film, trial.faces.thickness, moved)
+        part = _admissible(film, trial.faces.thickness, moved) * _passable(trial, pressures)
         trial.place = trial.place + part * moved
         trial.pressures[list(film.restricted)] += part * pressures
         _advance(trial, part * change)
@@ -308,6 +312,35 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         outcome=Outcome.UNFINISHED if finite else Outcome.DIVERGED,
         iterations=limit,
     )
+
+
+def _check_restrictors(trial: Trial) -> None:
+    """Raise ConvergenceError if a film takes in more than a restrictor passes at cavitation pressure."""
+    if trial.film.ruptures and min(trial.pressures[list(trial.film.restricted)], default=0.0) < 0:
+        raise ConvergenceError(
+            "supply: the film takes in more than a restrictor passes, and the pressure behind it falls below that of "
+            "cavitation; raise the pressure of the supply or widen the restrictor",
+            outcome=Outcome.STALLED,
+        )
+
+
+def _passable(trial: Trial, change: Array) -> float:
+    """The part, halved from 1, of a change of the pressures behind restrictors over which their flows are near linear.
+
+    Newton's method from Δp to -Δp and back would go on for ever through an orifice, whose flow changes as √Δp.
+    """
+    part = 1.0
+    for number, moved in zip(trial.film.restricted, change, strict=True):
+        inflow = trial.film.inflows[number]
+        assert inflow.restrictor is not None
+        drop = inflow.pressure - float(trial.pressures[number])
+        flow, slope = inflow.restrictor.flow(drop)
+        while part > MIN_PASSABLE:
+            linear, passed = flow - slope * part * moved, inflow.restrictor.flow(drop - part * float(moved))[0]
+            if abs(passed - linear) <= NEAR_LINEAR * max(abs(flow), abs(linear)):
+                break
+            part /= 2
+    return part
 
 
 def _admissible(film: MovingFilm, thickness: Array, moved: Array) -> float:
