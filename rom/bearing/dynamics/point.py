@@ -110,10 +110,12 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
     ----------
     ratio : frequency of the motion for which pads that tilt are condensed, over that of the rotation.
     """
-    scene, kept = film.scene, ~film.wall.turns
+    scene, part = film.scene, film.free | ~film.wall.turns
+    kept, among = ~film.wall.turns[part], np.ix_(part, part)
     rotation = rotation_of(scene, scene.motion.speed)
     whole = coefficients(film.solved, instant, speed=film.solved.problem.speed)
-    at = partial(condensed, whole.stiffness + holding(film, film.load), whole.damping, kept)
+    stiff = whole.stiffness + holding(film, film.load)
+    at = partial(condensed, stiff[among], whole.damping[among], kept)
     stiffness, damping = at(ratio * rotation)
     solution = film.solution(instant)
     numbers = {

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import RigidWall
 from roughfilm.rom.bearing.scene import Bearing
@@ -44,9 +43,17 @@ class FreeFilm:
     turned: bool
 
     @cached_property
+    def free(self) -> NDArray[np.bool_]:
+        """Whether each coordinate is sought: the shaft under a load, and pads without a given tilt."""
+        geometry = self.scene.geometry
+        assert isinstance(geometry, Lobes)
+        return np.where(self.wall.turns, geometry.tilts is None, self.scene.load is not None)
+
+    @cached_property
     def load(self) -> Array:
         """The load of the scene on each coordinate, N (N m of an angle; per width if infinitely wide)."""
-        return load_of_scene(self.scene)
+        line = self.whole.problem.shape.wide
+        return load_of_scene(self.scene) / ((self.scene.geometry.width or 1.0) if line else 1.0)
 
     def first(self, place: Array) -> Instant:
         """A full film at ambient pressure and given coordinates, from which an iteration starts."""
@@ -176,12 +183,12 @@ def _inflows(scene: Bearing, geometry: Lobes) -> tuple[Inflow, ...]:
 
 
 def load_of_scene(scene: Bearing) -> Array:
-    """The load of a scene on each coordinate of its wall, N (N/m if infinitely wide)."""
+    """The load of a scene on each coordinate of its wall, N (N/m if infinitely wide); 0 without a load."""
     geometry, load = scene.geometry, scene.load
     assert isinstance(geometry, Lobes)
     force = np.zeros(len(geometry.wall.names))
     if load is None or scene.load_pressure is None:
-        raise InputError("load: is missing; give [load] force or pressure, and its angle")
+        return force
     size = scene.load_pressure * scene.nominal_area
     force[:2] = size * np.cos(load.angle), size * np.sin(load.angle)
     return force
