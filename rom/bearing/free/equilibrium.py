@@ -46,13 +46,19 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     Raises
     ------
     InputError
-        If the film becomes thinner than ``CLOSEST`` times the clearance.
+        If nothing supplies the film, or it becomes thinner than ``CLOSEST`` times the clearance.
     ConvergenceError
         If the motion does not settle.
     """
     solved = film.solved
+    sides = solved.problem.ends.sides
+    if solved.problem.shape.joined[0] and not solved.inflows and sides is not None and max(sides) <= 0:
+        raise InputError(
+            "boundary.sides: got the cavitation pressure at both sides of a bore without grooves, which then has no "
+            "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
+        )
     force = film.load if load is None else load
-    free, held_by = film.free, _holding(film, force)
+    free, held_by = film.free, holding(film, force)
     if start is not None:
         drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free)
         try:
@@ -115,7 +121,7 @@ def _rate(film: FreeFilm) -> float:
     return max(abs(scene.motion.speed) / scene.geometry.length * 2 * np.pi, 1e-6)
 
 
-def _holding(film: FreeFilm, force: Array) -> Array:
+def holding(film: FreeFilm, force: Array) -> Array:
     """The stiffness that holds pads without pressure at their place, shape (coordinates, coordinates)."""
     unit = film.wall.unit
     stiff = np.where(film.wall.turns, HOLDING * np.abs(force).max() * unit[0] / unit**2, 0.0)
