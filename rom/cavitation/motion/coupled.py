@@ -13,7 +13,7 @@ from roughfilm.rom.cavitation.discretise import Faces
 from roughfilm.rom.cavitation.motion.bands import Bands
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import Network, State
-from roughfilm.rom.cavitation.newton import Linear
+from roughfilm.rom.cavitation.newton import BALANCE_ROUNDOFF, Linear
 
 DIFFERENCE = 1e-6
 """Change of the film thickness over the least one, for derivatives by the coordinates."""
@@ -23,6 +23,9 @@ MAX_APPROACH = 0.6
 
 FORCE_TOLERANCE = 1e-9
 """Net force on a coordinate over the sum of the sizes of its parts at which the iteration stops."""
+
+LEAST_FLOW = 1e-3
+"""Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
 
 COLUMNS_KEPT = 5
 """Number of steps for which the derivatives by the coordinates are kept: they change little from step to step."""
@@ -130,6 +133,12 @@ class Trial:
         return np.where(self.kind >= FIXED, 0.0, self.linear.balance)
 
     @property
+    def entering(self) -> float:
+        """The mean of what enters and what leaves through fixed nodes, m³/s, at least ``LEAST_FLOW`` of a face."""
+        given = self.linear.balance[self.kind >= FIXED]
+        return max(float(np.abs(given).sum()) / 2, LEAST_FLOW * self.largest)
+
+    @property
     def inflow_excess(self) -> Array:
         """What each inflow behind a restrictor gives to the film minus what passes its restrictor, m³/s."""
         film, given = self.film, np.zeros(len(self.film.restricted))
@@ -191,7 +200,7 @@ class Trial:
             matrix[row] = film.sides * (direct - np.tensordot(by_unknowns, spread, axes=2))
             matrix[row, row] += self._passed(number)[1]
             right[row] += film.sides * (sources[nodes].sum(axis=0) - np.tensordot(by_unknowns, change, axes=2))
-        pressures = np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+        pressures = _solved(matrix, right)
         return Response(change=change - spread @ pressures, pressures=pressures)
 
     def force_of(self, response: Response) -> Array:
@@ -214,9 +223,20 @@ class Trial:
         forces = self.force_of(response)[free]
         matrix = forces[:, 1:] - self.drive.stiffness[np.ix_(free, free)]
         net_force = (self.film.force(self.pressure) + self.pull)[free] + forces[:, 0]
-        places = np.asarray(np.linalg.solve(matrix, -net_force), dtype=np.float64)
+        places = _solved(matrix, -net_force)
         weights = np.append(1.0, places)
         return response.change @ weights, response.pressures @ weights, places
+
+
+def _solved(matrix: Array, right: Array) -> Array:
+    """The solution of a small linear system; ConvergenceError if the matrix is singular."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        raise ConvergenceError(
+            "motion: the film does not resist the motion of its wall; give a mass, or a place nearer to the equilibrium",
+            outcome=Outcome.DIVERGED,
+        ) from None
 
 
 def trial_at(film: MovingFilm, instant: Instant, drive: Drive) -> Trial:
@@ -244,7 +264,8 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
     Parameters
     ----------
     start : an instant near the solution; its coordinates that are not free are those of the solution.
-    tolerance : residual at which the iteration stops.
+    tolerance : residual at which the iteration stops, and sum of all balances over the flow through the film; it is
+        larger where the round-off of the volumes over a short time step exceeds it.
     limit : largest number of steps.
 
     Raises
@@ -257,13 +278,15 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
     residual = force_residual = np.inf
     for iteration in range(limit + 1):
         trial.evaluate()
-        largest_rest = max(float(np.abs(trial.rest).max()), float(np.abs(trial.inflow_excess).max(initial=0.0)))
-        residual = largest_rest / trial.largest
+        rest = trial.rest
+        unbalanced = max(float(np.abs(rest).max()), float(np.abs(trial.inflow_excess).max(initial=0.0)))
+        residual, imbalance = unbalanced / trial.largest, abs(float(rest.sum())) / trial.entering
+        least = max(tolerance, BALANCE_ROUNDOFF * float(trial.network.storage.max()) / trial.largest)
         net_force = np.abs(film.force(trial.pressure) + trial.pull) / trial.sizes
         force_residual = float(net_force[free].max(initial=0.0))
         if not np.isfinite(residual + force_residual):
             break
-        if residual <= tolerance and force_residual <= FORCE_TOLERANCE and not changed:
+        if max(residual, imbalance) <= least and force_residual <= FORCE_TOLERANCE and not changed:
             return Instant(
                 place=trial.place,
                 pressures=trial.pressures,
