@@ -3,6 +3,7 @@
 import math
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
+import numpy as np
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator, model_validator
 
 from roughfilm.contact.foundation.entries import Angle, InUnit, Part, PositiveNumber, plain_number
@@ -12,6 +13,7 @@ from roughfilm.rom.bearing.asperity_contact import AsperityContact
 from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.lobes import DOWN, Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Tilting
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import SHAPES, AnyShape
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
@@ -24,6 +26,7 @@ from roughfilm.rom.parts.fluid import Fluid
 if TYPE_CHECKING:
     from roughfilm.rom.cavitation.discretise import Ends
     from roughfilm.rom.cavitation.problem import Problem
+    from roughfilm.rom.cavitation.shape import Thickness
 
 GaugePressure = Annotated[float, InUnit("Pa", any_sign=True)]
 Speed = Annotated[float, InUnit("m/s", any_sign=True)]
@@ -71,9 +74,12 @@ class BearingMotion(Part):
     Attributes
     ----------
     speed : sliding speed, m/s; of a journal, a sector or a washer also a rotational speed, "3000 rpm".
+    approach : velocity V at which the walls approach each other, ∂h/∂t = -V, m/s, negative if they part; of a journal
+        that of the shaft towards its narrowest place, ∂h/∂t = V cos φ with the angle φ from the widest place.
     """
 
     speed: Speed
+    approach: Speed = 0.0
 
 
 class Inlet(Part):
@@ -244,6 +250,12 @@ class Bearing(Scene):
             )
         if self.asperities is not None:
             self._can_touch(self.asperities)
+        if self.motion.approach and isinstance(self.geometry, MovingWall):
+            moves = "pad that tilts" if isinstance(self.geometry, Tilting) else "shaft in lobes"
+            raise ValueError(
+                f"motion.approach: got {self.motion.approach!r} m/s for a {moves}, which moves in several directions; "
+                "leave it out, and take roughfilm march for its motion"
+            )
         film = self.geometry.film
         if self.load is not None:
             self._can_be_loaded(self.load)
@@ -274,10 +286,11 @@ class Bearing(Scene):
             )
         if load.moment_x or load.moment_y:
             self._can_have_moments(load)
-        if self.motion.speed == 0 and self.asperities is None:
+        if self.motion.speed == 0 and self.motion.approach <= 0 and self.asperities is None:
+            parts = " between walls that part" if self.motion.approach else ""
             raise ValueError(
-                "motion.speed: got 0 m/s under a load; a film without sliding carries none by its thickness, give a "
-                "speed, or [asperities] that touch"
+                f"motion.speed: got 0 m/s under a load; a film without sliding{parts} carries none by its thickness, "
+                "give a speed, an approach above 0 m/s, or [asperities] that touch"
             )
 
     def _can_have_moments(self, load: BearingLoad) -> None:
@@ -343,8 +356,8 @@ class Bearing(Scene):
         return self.model_copy(update={"geometry": geometry, "load": None})
 
     def at_speed(self, speed: float) -> Self:
-        """The bearing at another speed, m/s."""
-        return self.model_copy(update={"motion": BearingMotion.model_construct(speed=speed)})
+        """The bearing at another sliding speed, m/s."""
+        return self.model_copy(update={"motion": self.motion.model_copy(update={"speed": speed})})
 
     @property
     def turning_radius(self) -> float | None:
@@ -400,13 +413,29 @@ class Bearing(Scene):
             viscosity=lubricant.viscosity,
             compressibility=lubricant.compressibility,
             piezoviscosity=lubricant.piezoviscosity,
+            opening=self.opening(),
         )
+
+    def opening(self) -> "Thickness | None":
+        """∂h/∂t over x and y, m/s; None where the walls do not approach each other."""
+        approach, geometry = self.motion.approach, self.geometry
+        if approach == 0:
+            return None
+        if isinstance(geometry, Journal):
+            return lambda x, y: approach * np.cos(x / geometry.radius) + 0 * y
+        return lambda x, y: np.full(np.broadcast(x, y).shape, -approach)
 
     @property
     def pressure_unit(self) -> float:
-        """The pressure scale of sliding, 6 η u L / h², Pa, with the minimum film thickness h."""
-        geometry = self.geometry
-        return 6 * self.lubricant.viscosity * abs(self.motion.speed) * geometry.length / geometry.thinnest**2
+        """The pressure scale of sliding and squeeze, 6 η u L/h² + 12 η V L²/h³, Pa, with the minimum thickness h."""
+        return 6 * self.lubricant.viscosity * self.equivalent_speed * self.geometry.length / self.geometry.thinnest**2
+
+    @property
+    def equivalent_speed(self) -> float:
+        """The mean speeds of sliding and of the squeezed liquid at the ends, u + 2 V L/h, m/s."""
+        motion, geometry = self.motion, self.geometry
+        squeezed = 2 * abs(motion.approach) * geometry.length / geometry.thinnest if motion.approach else 0.0
+        return abs(motion.speed) + squeezed
 
     @property
     def revolutions(self) -> float:

@@ -1,6 +1,7 @@
 """Nodes over the plane of a film, one at every break of its thickness, and their control volumes."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -31,7 +32,7 @@ class Grid:
         """(nx, ny)."""
         return self.x.size, self.y.size
 
-    @property
+    @cached_property
     def areas(self) -> Array:
         """Areas of the control volumes, m² (m for an infinitely wide film), shape (nx, ny)."""
         return self.volume_x[:, None] * (self.volume_y * self.radius)

@@ -102,6 +102,8 @@ def inertia_obstacle(scene: Bearing) -> str | None:
         return "the scene has no lubricant.density"
     if isinstance(scene.geometry, Ring):
         return "centrifugal forces on rings are not modelled"
+    if scene.motion.approach != 0:
+        return "inertia of walls that approach each other is not modelled"
     if scene.motion.speed == 0:
         return "the sliding speed is zero"
     return None

@@ -106,7 +106,7 @@ def closest_film(scene: Bearing) -> float:
     """The smallest film thickness of a smooth bearing that is tried, m.
 
     It is above the dip of waves by ``MIN_FILM_RATIO`` times the variation of the film thickness; between parallel walls
-    times the film thickness at which 6ηuL/h² is the load over the nominal area.
+    times the film thickness at which 6ηuL/h² or 12ηVL²/h³ is the load over the nominal area.
     """
     least = MIN_FILM_RATIO * (_variation(scene) or _scale(scene))
     return min(scene.geometry.dip * MIN_FILM_OVER_PEAK + least, scene.geometry.widest / 2)
@@ -125,8 +125,8 @@ def first_film(scene: Bearing, closest: float) -> float:
     if isinstance(geometry, Journal):
         return FIRST_OFF_CENTRE * geometry.clearance
     rise, scale = _variation(scene), _scale(scene)
-    if rise == 0 or scale == 0:
-        return max(scale, 2 * closest)
+    if rise == 0 or scale == 0 or scene.motion.approach > 0:
+        return min(max(scale, 2 * closest), geometry.widest / 2)
     share = 1.0 if geometry.width is None else 1 / (1 + (geometry.length / geometry.width) ** 2)
 
     def excess(logarithm: float) -> float:
@@ -142,10 +142,12 @@ def first_film(scene: Bearing, closest: float) -> float:
 
 
 def _scale(scene: Bearing) -> float:
-    """The film thickness at which 6ηuL/h² is the load over the nominal area, m."""
+    """The film thickness at which 6ηuL/h² or 12ηVL²/h³, the greater one, is the load over the nominal area, m."""
     assert scene.load_pressure is not None
-    sheared = 6 * scene.lubricant.viscosity * abs(scene.motion.speed) * scene.geometry.length
-    return math.sqrt(sheared / scene.load_pressure)
+    viscosity, length = scene.lubricant.viscosity, scene.geometry.length
+    sheared = 6 * viscosity * abs(scene.motion.speed) * length
+    squeezed = 12 * viscosity * max(scene.motion.approach, 0.0) * length**2
+    return max(math.sqrt(sheared / scene.load_pressure), float(np.cbrt(squeezed / scene.load_pressure)))
 
 
 def _variation(scene: Bearing) -> float:

@@ -15,6 +15,7 @@ ADDED = (
     "torque",
     "inlet_flow",
     "outlet_flow",
+    "displaced_flow",
     "side_leakage",
     "contact_load",
     "film_load",

@@ -9,7 +9,7 @@ import scipy
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
-from roughfilm.rom.bearing.closed_forms import centre_of_pressure, linear_slider
+from roughfilm.rom.bearing.closed_forms.sliding import centre_of_pressure, linear_slider
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import free_film
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
