@@ -10,9 +10,11 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.supply.quantities import supply_values
 from roughfilm.rom.bearing.totals.least_film import least_film
+from roughfilm.rom.bearing.totals.pads import of_pad
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio, filled_fraction
 from roughfilm.rom.cavitation.evaluation.flows import flow_across, flow_along
@@ -48,7 +50,9 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     ``film_min_y`` (:func:`roughfilm.rom.bearing.totals.least_film.least_film`), and ``specific_load`` the load over the
     nominal area, p. ``supply_1_flow`` is what the first supply gives to the film, and ``supply_1_pressure`` the
     pressure there, behind its restrictor. ``hersey_number`` is ηN/p of a wall that turns N times a second, and ηu/(pL)
-    of one that slides; ``sommerfeld_number`` of a journal is ηN/p (R/c)².
+    of one that slides; ``sommerfeld_number`` of a journal is ηN/p (R/c)². A pad about its pivot has ``pivot_film``, its
+    slopes, and the moments of its film about the pivot (:func:`roughfilm.rom.bearing.totals.pads.of_pad`); a misaligned
+    shaft in lobes has moments about the middle of its width (:func:`shaft_moments`).
 
     Parameters
     ----------
@@ -109,9 +113,13 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         values["attitude_angle"] = (journal_load(scene.geometry, scene_positions(solution), force)[0], "deg")
     elif isinstance(scene.geometry, Lobes):
         values |= _of_shaft(scene.geometry, scene_positions(solution), force)
+        if any(scene.geometry.misalignment):
+            values |= shaft_moments(scene.geometry, scene_positions(solution), grid.y, force)
         values["film_min_angle"] = (math.degrees(float(scene.geometry.angle(np.array(least.x)))), "deg")
         if not scene.geometry.single:  # films of several lobes have no one beginning
             values = {name: value for name, value in values.items() if name not in ("film_start", "rupture")}
+    elif isinstance(scene.geometry, Tilting):
+        values |= of_pad(scene.geometry, scene_positions(solution), grid.y, force)
     if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
         values["friction_coefficient"] = (resistance / load, "1")
         values |= {name: (number, "1") for name, number in numbers_of_load(scene, specific).items()}
@@ -305,11 +313,22 @@ def _of_shaft(geometry: Lobes, x: Array, force: Array) -> dict[str, tuple[float,
         "eccentricity_x": (along_x, "1"),
         "eccentricity_y": (along_y, "1"),
     }
+    values |= {f"tilt_{pad + 1}": (tilt, "rad") for pad, tilt in enumerate(geometry.tilts or ())}
     pushed = math.hypot(push_x, push_y) > ROUND_OFF * float(np.abs(force).sum())
     if pushed and math.hypot(along_x, along_y):
         turned = math.atan2(along_y, along_x) - math.atan2(-push_y, -push_x)
         values["attitude_angle"] = (abs(math.degrees(math.remainder(turned, 2 * math.pi))), "deg")
     return values
+
+
+def shaft_moments(geometry: Lobes, x: Array, y: Array, force: Array) -> dict[str, tuple[float, str]]:
+    """The moments on a shaft in lobes about the middle of its width, N m, by forces at the nodes.
+
+    With the force (F_x, F_y) at the distance ζ from the middle they are M_x = -Σ ζ F_y and M_y = Σ ζ F_x: they turn y
+    towards the axis, and the axis towards x.
+    """
+    push_x, push_y = shaft_force(geometry, x, force * (y - (geometry.width or 0.0) / 2))
+    return {"moment_x": (-push_y, "N*m"), "moment_y": (push_x, "N*m")}
 
 
 def journal_load(geometry: Journal, x: Array, force: Array) -> tuple[float, float]:

@@ -12,6 +12,8 @@ from roughfilm.contact.foundation.units import rotational_speed, with_unit
 from roughfilm.rom.bearing.asperity_contact import AsperityContact
 from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.lobes import DOWN, Lobes
+from roughfilm.rom.bearing.geometry.pivoted import Tilting
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import SHAPES, AnyShape
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
@@ -34,6 +36,7 @@ Viscosity = Annotated[float, InUnit("Pa*s")]
 Density = Annotated[float, InUnit("kg/m^3")]
 Pressure = Annotated[float, InUnit("Pa")]
 Force = Annotated[float, InUnit("N")]
+Moment = Annotated[float, InUnit("N*m", any_sign=True)]
 ForcePerWidth = Annotated[float, InUnit("N/m")]
 
 
@@ -148,12 +151,16 @@ class BearingLoad(Part):
     force : load of the whole bearing, of a ring with all of its pieces, N.
     force_per_width : load over the width of an infinitely wide bearing, N/m.
     angle : direction of the load on a shaft in lobes, from the x axis towards the y axis, rad; by default -90°, down.
+    moment_x, moment_y : moments on a pivoted pad about the axes along x, the sliding, and along y through its pivot,
+        N m; z points from the sliding wall to the pad. Each pad of a bearing has them.
     """
 
     pressure: Pressure | None = None
     force: Force | None = None
     force_per_width: ForcePerWidth | None = None
     angle: Angle = DOWN
+    moment_x: Moment = 0.0
+    moment_y: Moment = 0.0
 
     @model_validator(mode="after")
     def _one_of_three(self) -> Self:
@@ -247,10 +254,11 @@ class Bearing(Scene):
             )
         if self.asperities is not None:
             self._can_touch(self.asperities)
-        if self.motion.approach and isinstance(self.geometry, Lobes):
+        if self.motion.approach and isinstance(self.geometry, MovingWall):
+            moves = "pad that tilts" if isinstance(self.geometry, Tilting) else "shaft in lobes"
             raise ValueError(
-                f"motion.approach: got {self.motion.approach!r} m/s for a shaft in lobes, which moves in two "
-                "directions; leave it out, and take roughfilm march for its motion"
+                f"motion.approach: got {self.motion.approach!r} m/s for a {moves}, which moves in several directions; "
+                "leave it out, and take roughfilm march for its motion"
             )
         film = self.geometry.film
         if self.load is not None:
@@ -258,6 +266,8 @@ class Bearing(Scene):
         elif film is None:
             key = "eccentricity" if isinstance(self.geometry, Shaft) else "film"
             raise ValueError(f"geometry.{key}: is missing; give it, or a load ([load] force or pressure)")
+        elif isinstance(self.geometry, Tilting) and self.geometry.slopes is None:
+            raise ValueError("geometry.slopes: are missing; give them, or a load ([load] force or pressure)")
         elif isinstance(self.roughness, Sinusoid) and self.roughness.amplitude >= film:
             raise ValueError(
                 f"roughness.amplitude: got {self.roughness.amplitude!r} m; it must be below film, "
@@ -278,6 +288,8 @@ class Bearing(Scene):
                 "load.force: is that of the whole bearing, whose number of pads is unknown; give geometry.pads, or "
                 "load.pressure"
             )
+        if load.moment_x or load.moment_y:
+            self._can_have_moments(load)
         if self.motion.speed == 0 and self.motion.approach <= 0 and self.asperities is None and not self.supply:
             parts = " between walls that part" if self.motion.approach else ""
             raise ValueError(
@@ -302,6 +314,17 @@ class Bearing(Scene):
         if self.supply and self.asperities is not None:
             raise ValueError("asperities: got a table with [[supply]], inside of which none touch; leave one out")
         patches(self.geometry, self.supply)
+
+    def _can_have_moments(self, load: BearingLoad) -> None:
+        geometry = self.geometry
+        if not isinstance(geometry, Tilting) or self.wide:
+            wide = "infinitely wide " if self.wide else ""
+            raise ValueError(
+                f"load.moment_{'x' if load.moment_x else 'y'}: got one for the {wide}shape {geometry.shape!r}; pivoted "
+                "pads with a width have moments"
+            )
+        if load.moment_x and not geometry.tilts_across:
+            raise ValueError("load.moment_x: got one for a pivot with line = true, which takes it; leave it out")
 
     def _can_touch(self, asperities: AsperityContact) -> None:
         if not isinstance(self.roughness, RoughSurface | StoredTable):

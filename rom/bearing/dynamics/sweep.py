@@ -116,9 +116,7 @@ def dynamics(
         omitted: list[Omitted] = []
         refused: InputError | ConvergenceError | None = None
         for count, speed in enumerate(ordered):
-            progress(
-                (number + count / len(ordered)) / len(pressures), f"{speed:.4g} m/s, {pressure * 1e-6:.4g} MPa"
-            )
+            progress((number + count / len(ordered)) / len(pressures), f"{speed:.4g} m/s, {pressure * 1e-6:.4g} MPa")
             point = done.get((pressure, speed))
             if point is None:
                 try:
@@ -209,7 +207,10 @@ def onset_of(points: Sequence[DynamicPoint], mass: float) -> Onset:
     points : points in order of speed.
     mass : mass of the rotor in the bearing, kg.
     """
-    excess = [1 / point.numbers["critical_mass"] - 1 / mass if point.numbers["critical_mass"] else math.inf for point in points]
+    excess = [
+        1 / point.numbers["critical_mass"] - 1 / mass if point.numbers["critical_mass"] else math.inf
+        for point in points
+    ]
     if excess[0] > 0:
         return Onset(mass=mass, rotation=math.nan, uncertainty=math.inf)
     for number in range(1, len(points)):

@@ -8,8 +8,8 @@ import numpy as np
 import scipy
 
 from roughfilm.contact.foundation.deferred import deferred
-from roughfilm.rom.bearing.geometry.journal import Journal
-from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing
 
 REFERENCE = 1e-4
@@ -29,6 +29,9 @@ MIN_FILM_OVER_PEAK = 1.001
 
 STEEPNESS_OF_SHAFT = 1.0
 """Exponent of the load of a shaft near its bore over the least film, W ~ 1/h of a wide bearing."""
+
+STEEPNESS_OF_PAD = 2.0
+"""Exponent of the load of a pad about its pivot over the least film, W ~ 1/h² of a pad that keeps its shape."""
 
 FIRST_OFF_CENTRE = 0.5
 """Film thickness over the clearance of a journal bearing at which the search begins."""
@@ -63,7 +66,7 @@ def expected_scene(scene: Bearing) -> Bearing:
     if scene.load is None:
         return scene
     expected, geometry = expected_film(scene), scene.geometry
-    if isinstance(geometry, Lobes) and expected.place is not None:
+    if isinstance(geometry, MovingWall) and expected.place is not None:
         return scene.moved(geometry.at(np.array(expected.place)))
     return scene.at_film(expected.thickness)
 
@@ -92,9 +95,10 @@ _expected_place = deferred("rom.bearing.free.solve", "expected_place")
 @lru_cache(maxsize=64)
 def _expected(question: _Question) -> ExpectedFilm:
     scene = question.scene
-    if isinstance(scene.geometry, Lobes):
+    if isinstance(scene.geometry, MovingWall):
         place = _expected_place(scene)
-        return ExpectedFilm(scene.geometry.at(np.array(place)).thinnest, STEEPNESS_OF_SHAFT, place)
+        steepness = STEEPNESS_OF_SHAFT if isinstance(scene.geometry, Shaft) else STEEPNESS_OF_PAD
+        return ExpectedFilm(scene.geometry.at(np.array(place)).thinnest, steepness, place)
     return ExpectedFilm(*_estimate(scene))
 
 
