@@ -120,14 +120,12 @@ def free_film(
     assert isinstance(geometry, Lobes)
     wall, placed = geometry.wall, scene.moved(geometry.at(geometry.wall.place))
     problem = film(placed)
-    modes, place, shaped = wall.normals, wall.place, problem.shape.thickness
-    at_rest = replace(
-        problem,
-        shape=replace(
-            problem.shape,
-            thickness=lambda x, y: shaped(x, y) - sum(n(x, y) * q for n, q in zip(modes, place, strict=True)),
-        ),
-    )
+    modes, shaped = wall.normals, problem.shape.thickness
+
+    def rest(x: Array, y: Array) -> Array:
+        return shaped(x, y) - sum(n(x, y) * q for n, q in zip(wall.normals, wall.place, strict=True))
+
+    at_rest = replace(problem, shape=replace(problem.shape, thickness=rest))
     inflows = _inflows(scene, geometry)
     turned = problem.speed < 0
     if turned:
