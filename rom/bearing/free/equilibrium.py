@@ -31,6 +31,14 @@ CLOSEST = 1e-4
 """Least film over the clearance below which no equilibrium is sought."""
 
 
+FARTHEST = 100.0
+"""Distance of the shaft from the middle of its bore over the clearance beyond which no equilibrium is sought."""
+
+
+UNRESISTED = 1e-9
+"""Force of the film over the load below which it does not resist the load."""
+
+
 def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load: Array | None = None) -> Instant:
     """The film at which the load of the scene and the force of the film balance.
 
@@ -46,7 +54,7 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     Raises
     ------
     InputError
-        If the film becomes thinner than ``CLOSEST`` times the clearance.
+        If the film becomes thinner than ``CLOSEST`` times the clearance, or the shaft leaves its bore.
     ConvergenceError
         If the motion does not settle.
     """
@@ -101,11 +109,23 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
                 f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; lower the load, or "
                 "raise the speed or the viscosity"
             )
+        if float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]:
+            raise _leaves(force)
         step *= GROWTH
+    if np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2]):
+        raise _leaves(force)
     raise ConvergenceError(
         "load: the motion towards the equilibrium does not settle; take more cells, or another load",
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
+    )
+
+
+def _leaves(force: Array) -> InputError:
+    toward = np.degrees(np.arctan2(force[1], force[0]))
+    return InputError(
+        f"load: got {np.hypot(*force[:2]):.6g} N towards {toward:.4g} degrees from the x axis; no film resists it, and "
+        "the shaft leaves its bore; turn the load or the bore, or take a longer arc"
     )
 
 

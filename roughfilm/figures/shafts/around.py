@@ -103,13 +103,21 @@ def _marks(axes: Axes, scene: Bearing, shown: Result, moved: Array, outside: flo
     axes.plot(*centre, "o", color="#08519c", markersize=4)
     least = np.radians(_value(shown, "film_min_angle"))
     axes.plot(
-        *_places(np.array([least, least]), np.array([1.0, outside])), color=LEAST_COLOUR, linewidth=2.2, label="least film"
+        *_places(np.array([least, least]), np.array([1.0, outside])),
+        color=LEAST_COLOUR,
+        linewidth=2.2,
+        label="least film",
     )
     if scene.load is not None:
         toward = np.array([np.cos(scene.load.angle), np.sin(scene.load.angle)])
         axes.add_patch(
             FancyArrowPatch(
-                tuple(centre), tuple(centre + 0.7 * toward), arrowstyle="-|>", mutation_scale=16, color=LOAD_COLOUR, lw=2
+                tuple(centre),
+                tuple(centre + 0.7 * toward),
+                arrowstyle="-|>",
+                mutation_scale=16,
+                color=LOAD_COLOUR,
+                lw=2,
             )
         )
         axes.plot([], [], color=LOAD_COLOUR, linewidth=2, label="load")
