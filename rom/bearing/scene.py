@@ -337,6 +337,11 @@ class Bearing(Scene):
 
     def _can_be_joined(self, pieces: str) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
+        if self.wide:
+            raise ValueError(
+                f"geometry.width: is missing, but {pieces} are fed through their sides; give a width, or an arc that "
+                "leaves gaps"
+            )
         if boundary.inlet != Inlet() or boundary.outlet != Outlet():
             raise ValueError(f"boundary: got an inlet or outlet, but {pieces} have none; leave it out")
         if max(boundary.sides.low, boundary.sides.high) <= lowest and not self.supply:

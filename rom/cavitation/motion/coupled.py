@@ -236,7 +236,7 @@ def _solved(matrix: Array, right: Array) -> Array:
         return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         raise ConvergenceError(
-            "motion: the film does not resist the motion of its wall; give a mass, or a place nearer to the equilibrium",
+            "motion: the film does not resist the motion of its wall; give a mass, or a start near the equilibrium",
             outcome=Outcome.DIVERGED,
         ) from None
 
