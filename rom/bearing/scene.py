@@ -182,6 +182,10 @@ class Bearing(Scene):
 
     Fields of the results, of the shape of the grid: ``x``, ``y`` (m, or rad and m), ``film_thickness`` (m),
     ``pressure`` (Pa), ``density_ratio`` θ (1), which below 1 is the fraction of the gap filled with liquid.
+
+    Attributes
+    ----------
+    supply : grooves, holes and pockets inside of the film in which lubricant is supplied.
     """
 
     kind: Literal["bearing"]
