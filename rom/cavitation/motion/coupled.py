@@ -14,6 +14,7 @@ from roughfilm.rom.cavitation.motion.bands import Bands
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import BALANCE_ROUNDOFF, Linear
+from roughfilm.rom.cavitation.relaxation import relaxed
 
 DIFFERENCE = 1e-6
 """Change of the film thickness over the least one, for derivatives by the coordinates."""
@@ -23,6 +24,13 @@ MAX_APPROACH = 0.6
 
 FORCE_TOLERANCE = 1e-9
 """Net force on a coordinate over the sum of the sizes of its parts at which the iteration stops."""
+
+SWEEPS, SWEEPS_OF_LINE = 5, 20
+"""Relaxation sweeps after a step that changed the kind of a node, in the plane and on a line.
+
+In the plane they follow a step only if it changed fewer nodes than all before, since steps and sweeps may otherwise
+move nodes to and fro; and everywhere only if no storage is negative, so that the balances form an M-function.
+"""
 
 LEAST_FLOW = 1e-3
 """Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
@@ -107,11 +115,22 @@ class Trial:
     largest: float = field(init=False)
     columns: Array | None = None
 
-    def evaluate(self) -> Self:
-        """Evaluate the balances and their derivatives; nodes behind restrictors keep theirs."""
+    def sample(self) -> Self:
+        """Sample the film at the coordinates."""
         film, drive = self.film, self.drive
         self.faces = film.faces(self.place)
-        self.network = net = film.network(self.faces, self.pressures, speed=drive.speed, storage=drive.storage)
+        self.network = film.network(self.faces, self.pressures, speed=drive.speed, storage=drive.storage)
+        return self
+
+    def relax(self) -> None:
+        """Relax the unknowns of the nodes, which moves fronts over many nodes, where a Newton step moves them by one."""
+        sweeps = SWEEPS_OF_LINE if self.network.shape[1] == 1 else SWEEPS
+        state = relaxed(self.network, self.film.problem, State(pressure=self.pressure, fill=self.fill), sweeps)
+        self.pressure, self.fill, self.kind = state.pressure, state.fill, kinds(self.network, state)
+
+    def evaluate(self) -> Self:
+        """Evaluate the balances and their derivatives; nodes behind restrictors keep theirs."""
+        film, net = self.film, self.network
         self.kind = np.where(net.fixed, np.int8(FIXED), np.where(self.kind == FIXED, np.int8(FILM), self.kind))
         self.pressure = np.where(net.fixed, net.pressure, self.pressure)
         self.fill = np.where(self.kind == CAVITY, self.fill, 1.0)
@@ -171,8 +190,8 @@ class Trial:
         for column, number in enumerate(free):
             step = np.zeros(self.place.size)
             step[number] = DIFFERENCE * least / float(self.film.reach[number])
-            ahead = replace(self, place=self.place + step).evaluate().linear.balance
-            behind = replace(self, place=self.place - step).evaluate() if central else self
+            ahead = replace(self, place=self.place + step).sample().evaluate().linear.balance
+            behind = replace(self, place=self.place - step).sample().evaluate() if central else self
             columns[..., column] = (ahead - behind.linear.balance) / ((2 if central else 1) * step[number])
         return columns
 
@@ -274,9 +293,13 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         If the iteration does not converge.
     """
     trial = trial_at(film, start, drive)
-    free, changed = np.flatnonzero(drive.free), 0
-    residual = force_residual = np.inf
+    free, changed, line = np.flatnonzero(drive.free), 0, film.grid.shape[1] == 1
+    residual = force_residual = fewest = np.inf
     for iteration in range(limit + 1):
+        trial.sample()
+        if film.ruptures and 0 < changed < fewest and trial.network.storage.min() >= 0:
+            fewest = np.inf if line else changed
+            trial.relax()
         trial.evaluate()
         rest = trial.rest
         unbalanced = max(float(np.abs(rest).max()), float(np.abs(trial.inflow_excess).max(initial=0.0)))

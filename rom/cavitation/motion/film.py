@@ -120,7 +120,9 @@ class MovingFilm:
         """The film sampled on the grid at coordinates q."""
         rest, modes, shapes = self._sampled
         samples, ends = rest + modes @ place, np.cumsum([math.prod(shape) for shape in shapes])
-        thickness = (samples[end - math.prod(shape) : end].reshape(shape) for end, shape in zip(ends, shapes, strict=True))
+        thickness = (
+            samples[end - math.prod(shape) : end].reshape(shape) for end, shape in zip(ends, shapes, strict=True)
+        )
         return faces_of(thickness, self.shape(place), self.grid)
 
     def network(

@@ -267,7 +267,9 @@ def test_walls_that_touch_end_a_march_in_one_line():
     film = plates(20, length=LENGTH, viscosity=OIL)
     start = begun(film, steady(film, [FIRST]))
     load = course(film, force=lambda _time: np.array([-LOAD]), scale=1e-3)
-    with pytest.raises(ConvergenceError, match=r"at the time \S+ s the film is \S+ m thick, and the walls touch") as one:
+    with pytest.raises(
+        ConvergenceError, match=r"at the time \S+ s the film is \S+ m thick, and the walls touch"
+    ) as one:
         list(march(film, load, start, 1e9, largest_step=1e8, closest=2e-6, error=0.1))
     assert "\n" not in str(one.value)
     closing = course(film, place=lambda time: np.array([FIRST * (1 - time)]))
