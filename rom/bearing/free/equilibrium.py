@@ -46,17 +46,11 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     Raises
     ------
     InputError
-        If nothing supplies the film, or it becomes thinner than ``CLOSEST`` times the clearance.
+        If the film becomes thinner than ``CLOSEST`` times the clearance.
     ConvergenceError
         If the motion does not settle.
     """
     solved = film.solved
-    sides = solved.problem.ends.sides
-    if solved.problem.shape.joined[0] and not solved.inflows and sides is not None and max(sides) <= 0:
-        raise InputError(
-            "boundary.sides: got the cavitation pressure at both sides of a bore without grooves, which then has no "
-            "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
-        )
     force = film.load if load is None else load
     free, held_by = film.free, holding(film, force)
     if start is not None:
