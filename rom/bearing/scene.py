@@ -3,6 +3,7 @@
 import math
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
+import numpy as np
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator, model_validator
 
 from roughfilm.contact.foundation.entries import Angle, InUnit, Part, PositiveNumber, plain_number
@@ -11,6 +12,8 @@ from roughfilm.contact.foundation.units import rotational_speed, with_unit
 from roughfilm.rom.bearing.asperity_contact import AsperityContact
 from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.lobes import DOWN, Lobes
+from roughfilm.rom.bearing.geometry.pivoted import Tilting
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import SHAPES, AnyShape
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
@@ -26,12 +29,14 @@ from roughfilm.rom.parts.surroundings import GaugePressure
 if TYPE_CHECKING:
     from roughfilm.rom.cavitation.discretise import Ends
     from roughfilm.rom.cavitation.problem import Inflow, Problem
+    from roughfilm.rom.cavitation.shape import Thickness
 
 Speed = Annotated[float, InUnit("m/s", any_sign=True)]
 Viscosity = Annotated[float, InUnit("Pa*s")]
 Density = Annotated[float, InUnit("kg/m^3")]
 Pressure = Annotated[float, InUnit("Pa")]
 Force = Annotated[float, InUnit("N")]
+Moment = Annotated[float, InUnit("N*m", any_sign=True)]
 ForcePerWidth = Annotated[float, InUnit("N/m")]
 
 
@@ -71,9 +76,12 @@ class BearingMotion(Part):
     Attributes
     ----------
     speed : sliding speed, m/s; of a journal, a sector or a washer also a rotational speed, "3000 rpm".
+    approach : velocity V at which the walls approach each other, ∂h/∂t = -V, m/s, negative if they part; of a journal
+        that of the shaft towards its narrowest place, ∂h/∂t = V cos φ with the angle φ from the widest place.
     """
 
     speed: Speed
+    approach: Speed = 0.0
 
 
 class Inlet(Part):
@@ -143,12 +151,16 @@ class BearingLoad(Part):
     force : load of the whole bearing, of a ring with all of its pieces, N.
     force_per_width : load over the width of an infinitely wide bearing, N/m.
     angle : direction of the load on a shaft in lobes, from the x axis towards the y axis, rad; by default -90°, down.
+    moment_x, moment_y : moments on a pivoted pad about the axes along x, the sliding, and along y through its pivot,
+        N m; z points from the sliding wall to the pad. Each pad of a bearing has them.
     """
 
     pressure: Pressure | None = None
     force: Force | None = None
     force_per_width: ForcePerWidth | None = None
     angle: Angle = DOWN
+    moment_x: Moment = 0.0
+    moment_y: Moment = 0.0
 
     @model_validator(mode="after")
     def _one_of_three(self) -> Self:
@@ -246,12 +258,20 @@ class Bearing(Scene):
             )
         if self.asperities is not None:
             self._can_touch(self.asperities)
+        if self.motion.approach and isinstance(self.geometry, MovingWall):
+            moves = "pad that tilts" if isinstance(self.geometry, Tilting) else "shaft in lobes"
+            raise ValueError(
+                f"motion.approach: got {self.motion.approach!r} m/s for a {moves}, which moves in several directions; "
+                "leave it out, and take roughfilm march for its motion"
+            )
         film = self.geometry.film
         if self.load is not None:
             self._can_be_loaded(self.load)
         elif film is None:
             key = "eccentricity" if isinstance(self.geometry, Shaft) else "film"
             raise ValueError(f"geometry.{key}: is missing; give it, or a load ([load] force or pressure)")
+        elif isinstance(self.geometry, Tilting) and self.geometry.slopes is None:
+            raise ValueError("geometry.slopes: are missing; give them, or a load ([load] force or pressure)")
         elif isinstance(self.roughness, Sinusoid) and self.roughness.amplitude >= film:
             raise ValueError(
                 f"roughness.amplitude: got {self.roughness.amplitude!r} m; it must be below film, "
@@ -272,10 +292,13 @@ class Bearing(Scene):
                 "load.force: is that of the whole bearing, whose number of pads is unknown; give geometry.pads, or "
                 "load.pressure"
             )
-        if self.motion.speed == 0 and self.asperities is None and not self.supply:
+        if load.moment_x or load.moment_y:
+            self._can_have_moments(load)
+        if self.motion.speed == 0 and self.motion.approach <= 0 and self.asperities is None and not self.supply:
+            parts = " between walls that part" if self.motion.approach else ""
             raise ValueError(
-                "motion.speed: got 0 m/s under a load; a film without sliding carries none by its thickness, give a "
-                "speed, [[supply]] behind restrictors, or [asperities] that touch"
+                f"motion.speed: got 0 m/s under a load; a film without sliding{parts} carries none by its thickness, "
+                "give a speed, an approach above 0 m/s, [[supply]] behind restrictors, or [asperities] that touch"
             )
 
     def _can_be_supplied(self) -> None:
@@ -296,6 +319,17 @@ class Bearing(Scene):
             raise ValueError("asperities: got a table with [[supply]], inside of which none touch; leave one out")
         patches(self.geometry, self.supply)
 
+    def _can_have_moments(self, load: BearingLoad) -> None:
+        geometry = self.geometry
+        if not isinstance(geometry, Tilting) or self.wide:
+            wide = "infinitely wide " if self.wide else ""
+            raise ValueError(
+                f"load.moment_{'x' if load.moment_x else 'y'}: got one for the {wide}shape {geometry.shape!r}; pivoted "
+                "pads with a width have moments"
+            )
+        if load.moment_x and not geometry.tilts_across:
+            raise ValueError("load.moment_x: got one for a pivot with line = true, which takes it; leave it out")
+
     def _can_touch(self, asperities: AsperityContact) -> None:
         if not isinstance(self.roughness, RoughSurface | StoredTable):
             got = "smooth walls" if self.roughness is None else "sinusoidal ridges"
@@ -307,6 +341,11 @@ class Bearing(Scene):
 
     def _can_be_joined(self, pieces: str) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
+        if self.wide:
+            raise ValueError(
+                f"geometry.width: is missing, but {pieces} are fed through their sides; give a width, or an arc that "
+                "leaves gaps"
+            )
         if boundary.inlet != Inlet() or boundary.outlet != Outlet():
             raise ValueError(f"boundary: got an inlet or outlet, but {pieces} have none; leave it out")
         if max(boundary.sides.low, boundary.sides.high) <= lowest and not self.supply:
@@ -348,8 +387,8 @@ class Bearing(Scene):
         return self.model_copy(update={"geometry": geometry, "load": None})
 
     def at_speed(self, speed: float) -> Self:
-        """The bearing at another speed, m/s."""
-        return self.model_copy(update={"motion": BearingMotion.model_construct(speed=speed)})
+        """The bearing at another sliding speed, m/s."""
+        return self.model_copy(update={"motion": self.motion.model_copy(update={"speed": speed})})
 
     @property
     def turning_radius(self) -> float | None:
@@ -425,13 +464,29 @@ class Bearing(Scene):
             viscosity=lubricant.viscosity,
             compressibility=lubricant.compressibility,
             piezoviscosity=lubricant.piezoviscosity,
+            opening=self.opening(),
         )
+
+    def opening(self) -> "Thickness | None":
+        """∂h/∂t over x and y, m/s; None where the walls do not approach each other."""
+        approach, geometry = self.motion.approach, self.geometry
+        if approach == 0:
+            return None
+        if isinstance(geometry, Journal):
+            return lambda x, y: approach * np.cos(x / geometry.radius) + 0 * y
+        return lambda x, y: np.full(np.broadcast(x, y).shape, -approach)
 
     @property
     def pressure_unit(self) -> float:
-        """The pressure scale of sliding, 6 η u L / h², Pa, with the minimum film thickness h."""
-        geometry = self.geometry
-        return 6 * self.lubricant.viscosity * abs(self.motion.speed) * geometry.length / geometry.thinnest**2
+        """The pressure scale of sliding and squeeze, 6 η u L/h² + 12 η V L²/h³, Pa, with the minimum thickness h."""
+        return 6 * self.lubricant.viscosity * self.equivalent_speed * self.geometry.length / self.geometry.thinnest**2
+
+    @property
+    def equivalent_speed(self) -> float:
+        """The mean speeds of sliding and of the squeezed liquid at the ends, u + 2 V L/h, m/s."""
+        motion, geometry = self.motion, self.geometry
+        squeezed = 2 * abs(motion.approach) * geometry.length / geometry.thinnest if motion.approach else 0.0
+        return abs(motion.speed) + squeezed
 
     @property
     def revolutions(self) -> float:

@@ -128,7 +128,7 @@ def solve(
         problem = mirrored(problem)
     if problem.speed == 0 and problem.opening is None:
         ruptures = False  # without motion the pressure lies between those of the ends
-    if not ruptures:
+    if not ruptures or problem.speed == 0:  # without sliding nothing is carried in
         problem = replace(problem, ends=replace(problem.ends, inlet=problem.ends.inlet or 0.0))
     wide = problem.shape.wide
     given = start is not None
@@ -202,12 +202,23 @@ def _kept(solution: Solution | None, count: int) -> Solution | None:
 
 
 def _check_fill(solution: Solution) -> None:
-    """Raise ConvergenceError if an oblique lay drains more from a cavity node than flows in."""
+    """Raise ConvergenceError if an oblique lay drains more from a cavity node than flows in, or none can close.
+
+    A cavity whose walls approach each other so fast that it displaces more than it carries on cannot be at rest. Nodes
+    become one where the density of a liquid that is compressed would have to grow in time.
+    """
     least = float(solution.state.fill.min())
     if least < -NEGATIVE_FILL_TOLERANCE:
+        closing = solution.network.oblique is None
+        cause = (
+            "because the walls approach each other faster than a liquid of this compressibility can flow out while its "
+            "density does not change in time; lower motion.approach, or take the model reynolds_incompressible"
+            if closing
+            else "because the pressures beside a cavity drive more liquid along the lay than flows in; take more "
+            "cells, or the model direct"
+        )
         raise ConvergenceError(
-            f"cavitation: a filling fraction is {least:.3g}, because the pressures beside a cavity drive more liquid "
-            "along the lay than flows in; take more cells, or the model direct",
+            f"cavitation: a filling fraction is {least:.3g}, {cause}",
             outcome=Outcome.STALLED,
             iterations=sum(level.iterations for level in solution.levels),
         )

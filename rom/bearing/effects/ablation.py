@@ -150,7 +150,7 @@ EFFECTS: tuple[SceneEffect, ...] = (
     ),
     SceneEffect(
         name="cavitation",
-        present=lambda scene: scene.motion.speed != 0,
+        present=lambda scene: scene.motion.speed != 0 or scene.motion.approach != 0,
         without=lambda one: replace(one, ruptures=False),
     ),
     SceneEffect(

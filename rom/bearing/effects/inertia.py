@@ -103,6 +103,8 @@ def inertia_obstacle(scene: Bearing) -> str | None:
         return "the scene has no lubricant.density"
     if isinstance(scene.geometry, Ring):
         return "centrifugal forces on rings are not modelled"
+    if scene.motion.approach != 0:
+        return "inertia of walls that approach each other is not modelled"
     if isinstance(scene.geometry, Lobes):
         return "it is not modelled in lobes"
     if scene.supply:

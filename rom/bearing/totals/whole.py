@@ -15,6 +15,7 @@ ADDED = (
     "torque",
     "inlet_flow",
     "outlet_flow",
+    "displaced_flow",
     "side_leakage",
     "supply_flow",
     "contact_load",

@@ -46,6 +46,8 @@ def film_obstacle(scene: Bearing) -> str | None:
         return f"the viscosity changes with pressure ({lubricant.piezoviscosity.law}), which needs reynolds_cavitating"
     if theta is not None and theta < 1:
         return f"the inlet is starved (theta = {theta:g}), which needs a model with cavitation"
+    if scene.motion.approach != 0:
+        return "the walls approach each other, which needs a model of the Reynolds equation"
     if scene.supply:
         return "lubricant is supplied inside of the film"
     if scene.motion.speed == 0:

@@ -13,7 +13,7 @@ from roughfilm.rom.cavitation.discretise import Faces
 from roughfilm.rom.cavitation.motion.bands import Bands
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import Network, State
-from roughfilm.rom.cavitation.newton import Linear
+from roughfilm.rom.cavitation.newton import BALANCE_ROUNDOFF, Linear
 
 DIFFERENCE = 1e-6
 """Change of the film thickness over the least one, for derivatives by the coordinates."""
@@ -26,6 +26,8 @@ FORCE_TOLERANCE = 1e-9
 
 NEAR_LINEAR, MIN_PASSABLE = 0.5, 1e-3
 """Relative change by which the flow through a restrictor may differ from a linear one in a step, and the least part."""
+LEAST_FLOW = 1e-3
+"""Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
 
 COLUMNS_KEPT = 5
 """Number of steps for which the derivatives by the coordinates are kept: they change little from step to step."""
@@ -133,6 +135,12 @@ class Trial:
         return np.where(self.kind >= FIXED, 0.0, self.linear.balance)
 
     @property
+    def entering(self) -> float:
+        """The mean of what enters and what leaves through fixed nodes, m³/s, at least ``LEAST_FLOW`` of a face."""
+        given = self.linear.balance[self.kind >= FIXED]
+        return max(float(np.abs(given).sum()) / 2, LEAST_FLOW * self.largest)
+
+    @property
     def inflow_excess(self) -> Array:
         """What each inflow behind a restrictor gives to the film minus what passes its restrictor, m³/s."""
         film, given = self.film, np.zeros(len(self.film.restricted))
@@ -223,12 +231,13 @@ class Trial:
 
 
 def _solved(matrix: Array, right: Array) -> Array:
-    """The solution of a small dense system; ConvergenceError if it is singular."""
+    """The solution of a small linear system; ConvergenceError if the matrix is singular."""
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         raise ConvergenceError(
-            "motion: no force resists a motion of the wall; take another place to start from", outcome=Outcome.DIVERGED
+            "motion: the film does not resist the motion of its wall; give a mass, or a start near the equilibrium",
+            outcome=Outcome.DIVERGED,
         ) from None
 
 
@@ -257,7 +266,8 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
     Parameters
     ----------
     start : an instant near the solution; its coordinates that are not free are those of the solution.
-    tolerance : residual at which the iteration stops.
+    tolerance : residual at which the iteration stops, and sum of all balances over the flow through the film; it is
+        larger where the round-off of the volumes over a short time step exceeds it.
     limit : largest number of steps.
 
     Raises
@@ -271,13 +281,15 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
     for iteration in range(limit + 1):
         with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
             trial.evaluate()
-        largest_rest = max(float(np.abs(trial.rest).max()), float(np.abs(trial.inflow_excess).max(initial=0.0)))
-        residual = largest_rest / trial.largest
+        rest = trial.rest
+        unbalanced = max(float(np.abs(rest).max()), float(np.abs(trial.inflow_excess).max(initial=0.0)))
+        residual, imbalance = unbalanced / trial.largest, abs(float(rest.sum())) / trial.entering
+        least = max(tolerance, BALANCE_ROUNDOFF * float(trial.network.storage.max()) / trial.largest)
         net_force = np.abs(film.force(trial.pressure) + trial.pull) / trial.sizes
         force_residual = float(net_force[free].max(initial=0.0))
         if not np.isfinite(residual + force_residual):
             break
-        if residual <= tolerance and force_residual <= FORCE_TOLERANCE and whole:
+        if max(residual, imbalance) <= least and force_residual <= FORCE_TOLERANCE and whole:
             _check_restrictors(trial)
             return Instant(
                 place=trial.place,
