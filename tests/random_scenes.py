@@ -321,7 +321,10 @@ def _shaft(draw, entries, speed, wide):
     if speed and draw(st.booleans()):
         radius, clearance = (float(geometry[key].split()[0]) for key in ("radius", "clearance"))
         scale = float(oil["viscosity"].split()[0]) * abs(speed) * radius / clearance**2
-        entries["load"] = {"angle": f"{draw(part(-180, 180))!r} deg", "pressure": f"{scale * draw(number(0.01, 3))!r} Pa"}
+        entries["load"] = {
+            "angle": f"{draw(part(-180, 180))!r} deg",
+            "pressure": f"{scale * draw(number(0.01, 3))!r} Pa",
+        }
     else:
         room, turned = 1 - geometry["preload"], draw(part(0.0, 6.283))
         size = room * draw(part(0.0, 0.95))

@@ -69,9 +69,7 @@ def test_a_given_shaft_that_turns_back_is_the_mirror_image(pads):
     tables = {"cells": 32, "load": None}
     forth = solved(GROOVED | pads | {"eccentricity": [0.3, -0.4]}, **tables)
     turned = {"tilts": ["-0.2 mrad", "-0.1 mrad"]} if pads else {}
-    back = solved(
-        GROOVED | pads | turned | {"eccentricity": [-0.3, -0.4]}, motion={"speed": "-3000 rpm"}, **tables
-    )
+    back = solved(GROOVED | pads | turned | {"eccentricity": [-0.3, -0.4]}, motion={"speed": "-3000 rpm"}, **tables)
     for name in ("load", "film_min", "friction", "pressure_max", "side_leakage", "attitude_angle"):
         assert back[name].value == pytest.approx(forth[name].value, rel=1e-7), name
 
