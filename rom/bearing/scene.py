@@ -13,6 +13,9 @@ from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.lobes import DOWN
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import SHAPES, AnyShape
+from roughfilm.rom.bearing.moving.body import Body
+from roughfilm.rom.bearing.moving.checks import check_motion
+from roughfilm.rom.bearing.moving.over_time import OverTime
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.lubricants.compressibility import Incompressible
@@ -69,9 +72,11 @@ class BearingMotion(Part):
     Attributes
     ----------
     speed : sliding speed, m/s; of a journal, a sector or a washer also a rotational speed, "3000 rpm".
+    over_time : speed, load or path over time, for a march; steady films have the speed and the load of the scene.
     """
 
     speed: Speed
+    over_time: OverTime | None = None
 
 
 class Inlet(Part):
@@ -178,6 +183,7 @@ class Bearing(Scene):
     roughness: AnyRoughness | None = None
     asperities: AsperityContact | None = None
     load: BearingLoad | None = None
+    body: Body | None = None
 
     @field_validator("geometry", mode="before")
     @classmethod
@@ -192,13 +198,21 @@ class Bearing(Scene):
     @classmethod
     def _slides(cls, entries: Any, info: ValidationInfo) -> Any:
         """The motion, with the sliding speed at the radius of the geometry in place of a rotational speed."""
-        turning = rotational_speed(entries.get("speed")) if isinstance(entries, dict) else None
         geometry = info.data.get("geometry")
-        if turning is None or not isinstance(geometry, Shaft | Ring | None):
+        if not isinstance(entries, dict) or not isinstance(geometry, Shaft | Ring | None):
             return entries
         # Without a geometry, which has a fault then, any speed will do.
-        sliding = turning if geometry is None else turning * geometry.radius
-        return {**entries, "speed": with_unit(sliding, "m/s")}
+        radius = 1.0 if geometry is None else geometry.radius
+
+        def sliding(speed: Any) -> Any:
+            turning = rotational_speed(speed)
+            return speed if turning is None else with_unit(turning * radius, "m/s")
+
+        entries = {**entries, "speed": sliding(entries["speed"])} if "speed" in entries else entries
+        table = entries.get("over_time")
+        if not isinstance(table, dict) or not isinstance(table.get("speed"), list | tuple):
+            return entries
+        return {**entries, "over_time": {**table, "speed": [sliding(speed) for speed in table["speed"]]}}
 
     @model_validator(mode="after")
     def _can_be_solved(self) -> Self:
@@ -236,10 +250,11 @@ class Bearing(Scene):
             )
         if self.asperities is not None:
             self._can_touch(self.asperities)
-        film = self.geometry.film
+        film, over_time = self.geometry.film, self.motion.over_time
+        check_motion(self.geometry, over_time, self.body, loaded=self.load is not None)
         if self.load is not None:
             self._can_be_loaded(self.load)
-        elif film is None:
+        elif film is None and (over_time is None or not over_time.places_or_loads):
             key = "eccentricity" if isinstance(self.geometry, Shaft) else "film"
             raise ValueError(f"geometry.{key}: is missing; give it, or a load ([load] force or pressure)")
         elif isinstance(self.roughness, Sinusoid) and self.roughness.amplitude >= film:
@@ -262,7 +277,8 @@ class Bearing(Scene):
                 "load.force: is that of the whole bearing, whose number of pads is unknown; give geometry.pads, or "
                 "load.pressure"
             )
-        if self.motion.speed == 0 and self.asperities is None:
+        in_time = self.motion.over_time is not None or self.body is not None
+        if self.motion.speed == 0 and self.asperities is None and not in_time:
             raise ValueError(
                 "motion.speed: got 0 m/s under a load; a film without sliding carries none by its thickness, give a "
                 "speed, or [asperities] that touch"

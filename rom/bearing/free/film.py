@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.free.walls import placed, wall_of
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import RigidWall
 from roughfilm.rom.bearing.scene import Bearing
@@ -101,6 +102,7 @@ def free_film(
     *,
     film: Callable[[Bearing], Problem] = Bearing.problem,
     ruptures: bool = True,
+    wall: RigidWall | None = None,
 ) -> FreeFilm:
     """The film of a bearing on about ``cells`` equal cells along and across.
 
@@ -108,11 +110,10 @@ def free_film(
     ----------
     film : film(scene), the problem that the model solves.
     ruptures : whether the film cavitates.
+    wall : the coordinates of the wall; by default those of the scene.
     """
-    geometry = scene.geometry
-    assert isinstance(geometry, Lobes)
-    wall, placed = geometry.wall, scene.moved(geometry.at(geometry.wall.place))
-    problem = film(placed)
+    wall = wall_of(scene) if wall is None else wall
+    problem = film(placed(scene, wall.place))
     modes, place, shaped = wall.normals, wall.place, problem.shape.thickness
     at_rest = replace(
         problem,
@@ -121,7 +122,7 @@ def free_film(
             thickness=lambda x, y: shaped(x, y) - sum(n(x, y) * q for n, q in zip(modes, place, strict=True)),
         ),
     )
-    inflows = _inflows(scene, geometry)
+    inflows = _inflows(scene)
     turned = problem.speed < 0
     if turned:
         ends = problem.shape.breaks[0] + problem.shape.breaks[-1]
@@ -146,7 +147,8 @@ def _mirrored(function: Callable[[Array, Array], Values], ends: float) -> Callab
 def _half(scene: Bearing, whole: MovingFilm, cells: tuple[int, int]) -> MovingFilm:
     """The half of the width beyond its middle, if the film is symmetric about it; else the whole film."""
     geometry, shape = scene.geometry, whole.problem.shape
-    assert isinstance(geometry, Lobes)
+    if not isinstance(geometry, Lobes):
+        return whole
     sides = scene.boundary.sides
     rough = scene.roughness is not None and shape.roughness is None
     if shape.wide or rough or not geometry.symmetric or sides.low != sides.high:
@@ -161,8 +163,11 @@ def _half(scene: Bearing, whole: MovingFilm, cells: tuple[int, int]) -> MovingFi
     )
 
 
-def _inflows(scene: Bearing, geometry: Lobes) -> tuple[Inflow, ...]:
+def _inflows(scene: Bearing) -> tuple[Inflow, ...]:
     """The gaps between lobes, in which the pressure is that of the inlet."""
+    geometry = scene.geometry
+    if not isinstance(geometry, Lobes):
+        return ()
     edge, pressure = AT_EDGE * geometry.length, scene.inlet_pressure - scene.lubricant.cavitation_pressure
 
     def gap(begin: float, end: float) -> Inflow:
@@ -178,10 +183,11 @@ def _inflows(scene: Bearing, geometry: Lobes) -> tuple[Inflow, ...]:
 def load_of_scene(scene: Bearing) -> Array:
     """The load of a scene on each coordinate of its wall, N (N/m if infinitely wide)."""
     geometry, load = scene.geometry, scene.load
-    assert isinstance(geometry, Lobes)
-    force = np.zeros(len(geometry.wall.names))
     if load is None or scene.load_pressure is None:
         raise InputError("load: is missing; give [load] force or pressure, and its angle")
     size = scene.load_pressure * scene.nominal_area
+    if not isinstance(geometry, Lobes):
+        return np.array([-size])
+    force = np.zeros(len(geometry.wall.names))
     force[:2] = size * np.cos(load.angle), size * np.sin(load.angle)
     return force

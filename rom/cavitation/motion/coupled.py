@@ -217,7 +217,14 @@ class Trial:
         moved = self.respond(-self.columns)
         matrix = self.force_of(moved)[free] - self.drive.stiffness[np.ix_(free, free)]
         net_force = (self.film.force(self.pressure) + self.pull + self.force_of(own)[:, 0])[free]
-        places = np.asarray(np.linalg.solve(matrix, -net_force), dtype=np.float64)
+        try:
+            places = np.asarray(np.linalg.solve(matrix, -net_force), dtype=np.float64)
+        except np.linalg.LinAlgError:
+            raise ConvergenceError(
+                "motion: no change of the position changes the force of the film, which is empty or without pressure; "
+                "supply lubricant, or start from another place",
+                outcome=Outcome.DIVERGED,
+            ) from None
         return Response(
             change=own.change + (moved.change @ places)[..., None],
             pressures=own.pressures + (moved.pressures @ places)[:, None],
