@@ -8,7 +8,8 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.bearing.geometry.journal import Journal
+from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.totals.least_film import least_film
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
@@ -78,7 +79,10 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         "film_min_x": (least.x, "rad" if problem.shape.polar else "m"),
         "film_start": (start, "1"),
         "rupture": (end, "1"),
-        "cavitated_fraction": (float(grid.areas[solution.kind == CAVITY].sum() / grid.areas.sum()), "1"),
+        "cavitated_fraction": (
+            float(grid.areas[solution.kind == CAVITY].sum() / (problem.shape.film_fraction * grid.areas.sum())),
+            "1",
+        ),
         "theta_min": (float(density_ratio(solution).min()), "1"),
     }
     if not problem.shape.wide:
@@ -92,6 +96,11 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     values |= {f"{name}_per_width": (value / width, unit) for name, (value, _, unit) in extensive.items()}
     if isinstance(scene.geometry, Journal):
         values["attitude_angle"] = (journal_load(scene.geometry, scene_positions(solution), force)[0], "deg")
+    elif isinstance(scene.geometry, Lobes):
+        values |= _of_shaft(scene.geometry, scene_positions(solution), force)
+        values["film_min_angle"] = (math.degrees(float(scene.geometry.angle(np.array(least.x)))), "deg")
+        if not scene.geometry.single:  # films of several lobes have no one beginning
+            values = {name: value for name, value in values.items() if name not in ("film_start", "rupture")}
     if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
         values["friction_coefficient"] = (resistance / load, "1")
         values |= {name: (number, "1") for name, number in numbers_of_load(scene, specific).items()}
@@ -100,7 +109,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
 
 def _torque(scene: Bearing, between: Array, rows: Array, grid: Grid) -> float | None:
     """The torque on a wall that turns, N m (N if infinitely wide); None of a wall that slides."""
-    if isinstance(scene.geometry, Journal):
+    if isinstance(scene.geometry, Shaft):
         return scene.geometry.radius * float(rows.sum() + between.sum())
     if scene.turning_radius is None:
         return None
@@ -112,7 +121,7 @@ def numbers_of_load(scene: Bearing, specific: float) -> dict[str, float]:
     geometry, radius, speed = scene.geometry, scene.turning_radius, abs(scene.motion.speed)
     frequency = speed / geometry.length if radius is None else speed / (2 * math.pi * radius)
     hersey = scene.lubricant.viscosity * frequency / specific
-    if not isinstance(geometry, Journal):
+    if not isinstance(geometry, Shaft):
         return {"hersey_number": hersey}
     return {"hersey_number": hersey, "sommerfeld_number": hersey * (geometry.radius / geometry.clearance) ** 2}
 
@@ -149,19 +158,24 @@ def boundary_flows(solution: Solution) -> Flows:
     along, grid, open_sides = flow_along(solution), solution.grid, solution.problem.ends.sides is not None
     across = flow_across(solution) if open_sides else np.zeros((grid.x.size, 2))
     low, high = -float(across[:, 0].sum()), float(across[:, -2].sum())
-    if solution.network.periodic[0]:
+    if solution.network.periodic[0] and not solution.problem.shape.idle:
         return Flows(inlet=None, outlet=None, low=low, high=high)
-    if not open_sides:
-        return Flows(inlet=float(along[0].sum()), outlet=float(along[-2].sum()), low=low, high=high)
     fill, couette, widths = solution.state.fill, solution.network.couette, grid.volume_y * grid.radius
-    for row, inner in ((0, 1), (-1, -2)):
+    for row, inner in ((0, 1), (-1, -2)) if open_sides else ():
         filled = along[:, row] + couette[:, row] * (fill[:, inner] - fill[:, row])
         along[:, row] = 0.75 * filled + 0.25 * along[:, inner] * widths[row] / widths[inner]
-    through_columns = across[[0, -1], -2] - across[[0, -1], 0]
-    passed = along[0] - along[-2]
+    if solution.problem.shape.idle:
+        gap = (solution.kind == FIXED).all(axis=1)
+        begins, ends = np.flatnonzero(gap & ~np.roll(gap, -1)), np.flatnonzero(~gap & np.roll(gap, -1))
+        low, high = -float(across[~gap, 0].sum()), float(across[~gap, -2].sum())
+        through = np.zeros(2)
+    else:
+        begins, ends = np.array([0]), np.array([along.shape[0] - 2])
+        through = across[[0, -1], -2] - across[[0, -1], 0]
+    passed = along[begins].sum(axis=0) - along[ends].sum(axis=0) if open_sides else np.zeros(1)
     return Flows(
-        inlet=float(along[0].sum() + through_columns[0]),
-        outlet=float(along[-2].sum() - through_columns[1]),
+        inlet=float(along[begins].sum() + through[0]),
+        outlet=float(along[ends].sum() - through[1]),
         low=low + float(passed[0]),
         high=high + float(passed[-1]),
     )
@@ -212,14 +226,15 @@ def _ends(solution: Solution, row: int, last: int, x: Array) -> float:
 
 def nominal_area(scene: Bearing, grid: Grid) -> float:
     """The nominal area, m² (m if infinitely wide): the area of the film; of a journal bearing diameter times width."""
-    if isinstance(scene.geometry, Journal):
+    if isinstance(scene.geometry, Shaft):
         return 2 * scene.geometry.radius * (1.0 if grid.shape[1] == 1 else scene.geometry.width or 1.0)
     return float(grid.areas.sum())
 
 
 def scene_positions(solution: Solution) -> Array:
-    """The positions of the nodes in the direction of the scene's x, m, up to a constant (one turn of a journal)."""
-    return -solution.grid.x if solution.turned else solution.grid.x
+    """The positions of the nodes along the x of the scene, m."""
+    x, breaks = solution.grid.x, solution.problem.shape.breaks
+    return breaks[0] + breaks[-1] - x if solution.turned else x
 
 
 def load_of(scene: Bearing, x: Array, force: Array) -> float:
@@ -229,7 +244,30 @@ def load_of(scene: Bearing, x: Array, force: Array) -> float:
     """
     if isinstance(scene.geometry, Journal):
         return journal_load(scene.geometry, x, force)[1]
+    if isinstance(scene.geometry, Lobes):
+        return math.hypot(*shaft_force(scene.geometry, x, force))
     return float(force.sum())
+
+
+def shaft_force(geometry: Lobes, x: Array, force: Array) -> tuple[float, float]:
+    """The force along x and y on a shaft in lobes, N, by forces at the nodes, which push it away from the bore."""
+    angle = geometry.angle(x)[:, None]
+    return -float((force * np.cos(angle)).sum()), -float((force * np.sin(angle)).sum())
+
+
+def _of_shaft(geometry: Lobes, x: Array, force: Array) -> dict[str, tuple[float, str]]:
+    """The place of a shaft in lobes: its eccentricity, and the angle from the load it carries, in its rotation."""
+    along_x, along_y = geometry.eccentricity or (0.0, 0.0)
+    push_x, push_y = shaft_force(geometry, x, force)
+    values = {
+        "eccentricity": (math.hypot(along_x, along_y), "1"),
+        "eccentricity_x": (along_x, "1"),
+        "eccentricity_y": (along_y, "1"),
+    }
+    if math.hypot(push_x, push_y) and math.hypot(along_x, along_y):
+        turned = math.atan2(along_y, along_x) - math.atan2(-push_y, -push_x)
+        values["attitude_angle"] = (abs(math.degrees(math.remainder(turned, 2 * math.pi))), "deg")
+    return values
 
 
 def journal_load(geometry: Journal, x: Array, force: Array) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import rotational_speed, with_unit
 from roughfilm.rom.bearing.asperity_contact import AsperityContact
 from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
-from roughfilm.rom.bearing.geometry.lobes import DOWN
+from roughfilm.rom.bearing.geometry.lobes import DOWN, Lobes
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import SHAPES, AnyShape
 from roughfilm.rom.bearing.moving.body import Body
@@ -239,7 +239,9 @@ class Bearing(Scene):
             except InputError as error:
                 raise ValueError(f"boundary.inlet.{error}") from None
         if isinstance(self.geometry, Ring) and self.geometry.endless:
-            self._can_be_joined()
+            self._can_be_joined("joined pads")
+        elif isinstance(self.geometry, Lobes) and self.geometry.joined:
+            self._can_be_joined("lobes without gaps")
         if self.wide and self.boundary.sides != Sides():
             raise ValueError("boundary.sides: got pressures for an infinitely wide bearing; remove them or add a width")
         law, least = self.lubricant.piezoviscosity, math.exp(-LOG_VISCOSITY)
@@ -293,13 +295,13 @@ class Bearing(Scene):
         if isinstance(self.roughness, StoredTable) and asperities.solid is not None:
             raise ValueError("asperities.solid: got one, but the stored table has its own solids; leave it out")
 
-    def _can_be_joined(self) -> None:
+    def _can_be_joined(self, pieces: str) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
         if boundary.inlet != Inlet() or boundary.outlet != Outlet():
-            raise ValueError("boundary: got an inlet or outlet, but joined pads have none; leave it out")
+            raise ValueError(f"boundary: got an inlet or outlet, but {pieces} have none; leave it out")
         if max(boundary.sides.low, boundary.sides.high) <= lowest:
             raise ValueError(
-                f"boundary.sides: got no pressure above the cavitation pressure of {lowest!r} Pa; joined pads are "
+                f"boundary.sides: got no pressure above the cavitation pressure of {lowest!r} Pa; {pieces} are "
                 "fed through their sides, raise one of the two"
             )
 

@@ -274,6 +274,7 @@ def mirrored(problem: Problem) -> Problem:
     turned = replace(
         shape,
         breaks=breaks,
+        idle=tuple((low + high - end, low + high - begin) for begin, end in reversed(shape.idle)),
         thickness=lambda x, y: shape.thickness(low + high - x, y),
         roughness=None if shape.roughness is None else mirrored_factors(shape.roughness),
     )

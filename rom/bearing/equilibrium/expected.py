@@ -9,6 +9,7 @@ import scipy
 
 from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.rom.bearing.geometry.journal import Journal
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.scene import Bearing
 
 REFERENCE = 1e-4
@@ -26,6 +27,9 @@ MIN_FILM_RATIO = 1e-4
 MIN_FILM_OVER_PEAK = 1.001
 """Smallest mean gap over the height of the roughness that is tried without contact."""
 
+STEEPNESS_OF_SHAFT = 1.0
+"""Exponent of the load of a shaft near its bore over the least film, W ~ 1/h of a wide bearing."""
+
 FIRST_OFF_CENTRE = 0.5
 """Film thickness over the clearance of a journal bearing at which the search begins."""
 
@@ -38,10 +42,12 @@ class ExpectedFilm:
     ----------
     thickness : minimum film thickness, m.
     steepness : exponent n of the load over the film thickness there, W ~ h⁻ⁿ.
+    place : the coordinates of a wall that moves freely; None where the thickness is the only one.
     """
 
     thickness: float
     steepness: float
+    place: tuple[float, ...] | None = None
 
 
 def expected_scene(scene: Bearing) -> Bearing:
@@ -54,7 +60,12 @@ def expected_scene(scene: Bearing) -> Bearing:
     ConvergenceError
         If a film or the load does not converge.
     """
-    return scene if scene.load is None else scene.at_film(expected_film(scene).thickness)
+    if scene.load is None:
+        return scene
+    expected, geometry = expected_film(scene), scene.geometry
+    if isinstance(geometry, Lobes) and expected.place is not None:
+        return scene.moved(geometry.at(np.array(expected.place)))
+    return scene.at_film(expected.thickness)
 
 
 def expected_film(scene: Bearing) -> ExpectedFilm:
@@ -75,11 +86,16 @@ class _Question:
 
 
 _estimate = deferred("rom.bearing.equilibrium.estimate", "estimate")
+_expected_place = deferred("rom.bearing.free.solve", "expected_place")
 
 
 @lru_cache(maxsize=64)
 def _expected(question: _Question) -> ExpectedFilm:
-    return ExpectedFilm(*_estimate(question.scene))
+    scene = question.scene
+    if isinstance(scene.geometry, Lobes):
+        place = _expected_place(scene)
+        return ExpectedFilm(scene.geometry.at(np.array(place)).thinnest, STEEPNESS_OF_SHAFT, place)
+    return ExpectedFilm(*_estimate(scene))
 
 
 def closest_film(scene: Bearing) -> float:

@@ -10,6 +10,7 @@ from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
 from roughfilm.rom.cavitation.motion.march import held
+from roughfilm.rom.cavitation.problem import unchanging
 
 FIRST_STEP = 0.2
 """First time step over the time in which the shaft turns by a radian."""
@@ -51,19 +52,34 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     """
     solved = film.solved
     force = film.load if load is None else load
-    count = force.size
-    free, held_by = np.ones(count, dtype=bool), _holding(film, force)
+    free, held_by = film.free, _holding(film, force)
     if start is not None:
         drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free)
         try:
             return settled(solved, start, drive, tolerance=tolerance)
         except ConvergenceError:
             pass
-    instant = film.first(film.wall.place) if start is None else start
+    if start is None:
+        start = film.first(film.wall.place)
+        constant = unchanging(solved.problem)
+        if constant != solved.problem and free.any():
+            simple = replace(film, solved=replace(solved, problem=constant))
+            start = _settling(simple, start, force, held_by, tolerance)
+    return _settling(film, start, force, held_by, tolerance)
+
+
+def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tolerance: float) -> Instant:
+    """The end of the motion without mass from a film."""
+    solved, free, count = film.solved, film.free, force.size
     given = Drive(
-        speed=solved.problem.speed, force=force, stiffness=np.zeros((count, count)), free=np.zeros(count, dtype=bool)
+        speed=solved.problem.speed,
+        force=force,
+        stiffness=np.zeros((count, count)),
+        free=np.zeros(count, dtype=bool),
     )
-    instant = settled(solved, instant, given, tolerance=tolerance)
+    instant = settled(solved, start, given, tolerance=tolerance)
+    if not free.any():
+        return instant
     time = 1 / _rate(film)
     step = FIRST_STEP * time
     for _ in range(MAX_STEPS):

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.bearing.free.walls import placed, wall_of
+from roughfilm.rom.bearing.free.walls import bearing_at, wall_of
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import RigidWall
 from roughfilm.rom.bearing.scene import Bearing
@@ -45,9 +44,17 @@ class FreeFilm:
     turned: bool
 
     @cached_property
+    def free(self) -> NDArray[np.bool_]:
+        """Whether each coordinate is sought: the shaft under a load, and pads without a given tilt."""
+        geometry = self.scene.geometry
+        assert isinstance(geometry, Lobes)
+        return np.where(self.wall.turns, geometry.tilts is None, self.scene.load is not None)
+
+    @cached_property
     def load(self) -> Array:
         """The load of the scene on each coordinate, N (N m of an angle; per width if infinitely wide)."""
-        return load_of_scene(self.scene)
+        line = self.whole.problem.shape.wide
+        return load_of_scene(self.scene) / ((self.scene.geometry.width or 1.0) if line else 1.0)
 
     def first(self, place: Array) -> Instant:
         """A full film at ambient pressure and given coordinates, from which an iteration starts."""
@@ -113,7 +120,7 @@ def free_film(
     wall : the coordinates of the wall; by default those of the scene.
     """
     wall = wall_of(scene) if wall is None else wall
-    problem = film(placed(scene, wall.place))
+    problem = film(bearing_at(scene, wall.place))
     modes, place, shaped = wall.normals, wall.place, problem.shape.thickness
     at_rest = replace(
         problem,
@@ -181,13 +188,13 @@ def _inflows(scene: Bearing) -> tuple[Inflow, ...]:
 
 
 def load_of_scene(scene: Bearing) -> Array:
-    """The load of a scene on each coordinate of its wall, N (N/m if infinitely wide)."""
+    """The load of a scene on each coordinate of its wall, N (N/m if infinitely wide); 0 without a load."""
     geometry, load = scene.geometry, scene.load
+    force = np.zeros(len(geometry.wall.names) if isinstance(geometry, Lobes) else 1)
     if load is None or scene.load_pressure is None:
-        raise InputError("load: is missing; give [load] force or pressure, and its angle")
+        return force
     size = scene.load_pressure * scene.nominal_area
     if not isinstance(geometry, Lobes):
-        return np.array([-size])
-    force = np.zeros(len(geometry.wall.names))
+        return force - size
     force[:2] = size * np.cos(load.angle), size * np.sin(load.angle)
     return force

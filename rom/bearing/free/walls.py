@@ -39,7 +39,7 @@ def wall_of(scene: Bearing, film: float | None = None) -> RigidWall:
     )
 
 
-def placed(scene: Bearing, place: Array) -> Bearing:
+def bearing_at(scene: Bearing, place: Array) -> Bearing:
     """The bearing without a load, with its wall at its coordinates."""
     geometry = scene.geometry
     return scene.moved(geometry.at(place)) if isinstance(geometry, Lobes) else scene.at_film(float(place[0]))

@@ -239,4 +239,5 @@ class Lobes(Shaft):
             across=(0.0, self.length if self.width is None else self.width),
             wide=self.width is None,
             joined=(not self.single, False),
+            idle=tuple(self.gaps()),
         )

@@ -73,7 +73,10 @@ def _pull(solution: Solution, *, halved: bool = False) -> Array:
         shear = np.where(mean > 0, problem.viscosity * speed * gradient, 0.0)
     shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
     rise = np.roll(solution.state.pressure, -1, axis=0) - solution.state.pressure
-    return np.asarray(shear * stretch + mean / 2 * rise)
+    pull = np.asarray(shear * stretch + mean / 2 * rise)
+    if problem.shape.idle:
+        pull[problem.shape.is_idle(grid.x + grid.spacing_x / 2)] = 0.0
+    return pull
 
 
 def _shear_factor(solution: Solution, rough: Averaged, fill: Array) -> Array:

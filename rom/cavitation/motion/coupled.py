@@ -192,7 +192,7 @@ class Trial:
             matrix[row] = film.sides * (direct - np.tensordot(by_unknowns, spread, axes=2))
             matrix[row, row] += self._passed(number)[1]
             right[row] += film.sides * (sources[nodes].sum(axis=0) - np.tensordot(by_unknowns, change, axes=2))
-        pressures = np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+        pressures = _solved(matrix, right)
         return Response(change=change - spread @ pressures, pressures=pressures)
 
     def force_of(self, response: Response) -> Array:
@@ -217,18 +217,21 @@ class Trial:
         moved = self.respond(-self.columns)
         matrix = self.force_of(moved)[free] - self.drive.stiffness[np.ix_(free, free)]
         net_force = (self.film.force(self.pressure) + self.pull + self.force_of(own)[:, 0])[free]
-        try:
-            places = np.asarray(np.linalg.solve(matrix, -net_force), dtype=np.float64)
-        except np.linalg.LinAlgError:
-            raise ConvergenceError(
-                "motion: no change of the position changes the force of the film, which is empty or without pressure; "
-                "supply lubricant, or start from another place",
-                outcome=Outcome.DIVERGED,
-            ) from None
+        places = _solved(matrix, -net_force)
         return Response(
             change=own.change + (moved.change @ places)[..., None],
             pressures=own.pressures + (moved.pressures @ places)[:, None],
         ), places
+
+
+def _solved(matrix: Array, right: Array) -> Array:
+    """The solution of a small dense system; ConvergenceError if it is singular."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        raise ConvergenceError(
+            "motion: no force resists a motion of the wall; take another place to start from", outcome=Outcome.DIVERGED
+        ) from None
 
 
 def trial_at(film: MovingFilm, instant: Instant, drive: Drive) -> Trial:
@@ -265,17 +268,18 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         If the iteration does not converge.
     """
     trial = trial_at(film, start, drive)
-    free, changed = np.flatnonzero(drive.free), 0
+    free, whole = np.flatnonzero(drive.free), True
     residual = force_residual = np.inf
     for iteration in range(limit + 1):
-        trial.evaluate()
+        with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
+            trial.evaluate()
         largest_rest = max(float(np.abs(trial.rest).max()), float(np.abs(trial.inflow_excess).max(initial=0.0)))
         residual = largest_rest / trial.largest
         net_force = np.abs(film.force(trial.pressure) + trial.pull) / trial.sizes
         force_residual = float(net_force[free].max(initial=0.0))
         if not np.isfinite(residual + force_residual):
             break
-        if residual <= tolerance and force_residual <= FORCE_TOLERANCE and not changed:
+        if residual <= tolerance and force_residual <= FORCE_TOLERANCE and whole:
             return Instant(
                 place=trial.place,
                 pressures=trial.pressures,
@@ -294,8 +298,9 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         part = _admissible(film, trial.faces.thickness, moved)
         trial.place = trial.place + part * moved
         trial.pressures[list(film.restricted)] += part * response.pressures[:, 0]
-        changed = _advance(trial, part * response.change[..., 0]) + int(part < 1)
-        if part < 1 or iteration % COLUMNS_KEPT == COLUMNS_KEPT - 1:
+        _advance(trial, part * response.change[..., 0])
+        whole = part == 1
+        if not whole or iteration % COLUMNS_KEPT == COLUMNS_KEPT - 1:
             trial.columns = None
     finite = np.isfinite(residual + force_residual)
     reason = (
@@ -316,13 +321,12 @@ def _admissible(film: MovingFilm, thickness: Array, moved: Array) -> float:
     return float(min(1.0, MAX_APPROACH / max(float(closing.max()), MAX_APPROACH)))
 
 
-def _advance(trial: Trial, change: Array) -> int:
-    """Add the change to the unknowns of the nodes; returns how many nodes changed their kind."""
+def _advance(trial: Trial, change: Array) -> None:
+    """Add the change to the unknowns of the nodes, which may change their kind."""
     if trial.film.ruptures:
-        flat = (values.reshape(-1) for values in (trial.kind, trial.pressure, trial.fill, change))
-        return int(advance(*flat))
-    trial.pressure += np.where(trial.kind == FILM, change, 0.0)
-    return 0
+        advance(*(values.reshape(-1) for values in (trial.kind, trial.pressure, trial.fill, change)))
+    else:
+        trial.pressure += np.where(trial.kind == FILM, change, 0.0)
 
 
 def kinds(network: Network, state: State) -> NDArray[np.int8]:
