@@ -46,9 +46,8 @@ class FreeFilm:
     @cached_property
     def free(self) -> NDArray[np.bool_]:
         """Whether each coordinate is sought: the shaft under a load, and pads without a given tilt."""
-        geometry = self.scene.geometry
-        assert isinstance(geometry, Lobes)
-        return np.where(self.wall.turns, geometry.tilts is None, self.scene.load is not None)
+        tilts = getattr(self.scene.geometry, "tilts", None)
+        return np.where(self.wall.turns, tilts is None, self.scene.load is not None)
 
     @cached_property
     def load(self) -> Array:

@@ -234,22 +234,28 @@ def film_at(duty: Duty, cells: tuple[int, int]) -> FreeFilm:
     speeds = duty.curves["speed"].cubic(duty.curves["speed"].cubic.x) if "speed" in duty.curves else [0.0]
     radius = scene.turning_radius or 1.0
     speed = duty.speed(duty.begin) * (1.0 if duty.lobes else radius) or float(max(speeds, key=abs))
-    at_start = scene.model_copy(update={"motion": scene.motion.model_copy(update={"speed": speed})})
+    at_start = scene.model_copy(
+        update={
+            "motion": scene.motion.model_copy(update={"speed": speed}),
+            "load": _first_load(duty),
+        }
+    )
     film = None
     if not duty.lobes:
         film = start.film or (duty.curves["film"](duty.begin) if "film" in duty.curves else None)
-        if film is None and scene.geometry.film is None:
-            film = _first_film(duty, at_start)
+        if film is None and scene.geometry.film is None and (scene.motion.speed == 0 or at_start.load is None):
+            raise InputError("body.start.film: is missing for a first film without speed or load; give it")
     return free_film(at_start, cells, wall=wall_of(at_start, film))
 
 
-def _first_film(duty: Duty, scene: Bearing) -> float:
-    """The film that is expected under the first load of a wall with one coordinate, m."""
-    size = -float(duty.load(duty.begin)[0])
-    if scene.motion.speed == 0 or size <= 0:
-        raise InputError("body.start.film: is missing for a first film without speed or load; give it")
-    load = BearingLoad.model_validate({"pressure": f"{size / scene.nominal_area!r} Pa"})
-    return float(wall_of(scene.model_copy(update={"load": load})).place[0])
+def _first_load(duty: Duty) -> BearingLoad | None:
+    """The load at the first time; None of a given path, and of no load."""
+    force, area = duty.load(duty.begin), duty.scene.nominal_area
+    size = float(np.hypot(*force[:2])) if duty.lobes else abs(float(force[0]))
+    if duty.given_path or size == 0:
+        return None
+    angle = math.atan2(force[1], force[0]) if duty.lobes else -math.pi / 2
+    return BearingLoad.model_construct(pressure=size / area, angle=angle)
 
 
 def course_of(duty: Duty, film: FreeFilm) -> Course:
@@ -313,7 +319,7 @@ def started(duty: Duty, film: FreeFilm, *, tolerance: float) -> Moving:
     speed = abs(duty.speed(begin))
     if not given and duty.changes and speed > 0 and np.abs(duty.load(begin)).max() > 0:
         try:
-            instant = equilibrium(film, None, tolerance=tolerance, load=duty.load(begin))
+            instant = equilibrium(film, None, tolerance=tolerance)
         except (InputError, ConvergenceError) as error:
             place_key = "eccentricity" if duty.lobes else "film"
             raise InputError(f"body.start.{place_key}: is missing, and the first load has no equilibrium ({error}); give it") from None

@@ -179,7 +179,7 @@ class Trial:
         film, known = self.film, (self.kind >= FIXED)[..., None]
         within = [film.covered[number] for number in film.restricted]
         columns = [self.linear.image(nodes.astype(float))[..., None] for nodes in within]
-        bands = Bands(self.linear.without(known[..., 0]), periodic=self.network.periodic[0])
+        bands = Bands(self.linear, known[..., 0], periodic=self.network.periodic[0])
         change = bands.solve(np.where(known, 0.0, np.concatenate([sources, *columns], axis=-1)))
         if not within:
             return Response(change=change, pressures=np.zeros((0, sources.shape[-1])))
@@ -198,30 +198,27 @@ class Trial:
     def force_of(self, response: Response) -> Array:
         """The changes of the force on every coordinate, shape (coordinates, sources)."""
         film = self.film
-        force = np.tensordot(
-            np.where((self.kind == FILM)[..., None], film.weights, 0.0), response.change, ((0, 1),) * 2
-        )
+        coordinates, sources = film.weights.shape[-1], response.change.shape[-1]
+        change = np.where((self.kind == FILM)[..., None], response.change, 0.0)
+        force = film.weights.reshape(-1, coordinates).T @ change.reshape(-1, sources)
         for number, pressures in zip(film.restricted, response.pressures, strict=True):
             force += np.outer(film.weights[film.covered[number]].sum(axis=0), pressures)
         return np.asarray(force)
 
-    def step(self) -> tuple[Response, Array]:
-        """The changes of the unknowns of the film, of one source, and of the free coordinates."""
+    def step(self) -> tuple[Array, Array, Array]:
+        """The changes of the unknowns of the nodes, of the pressures behind restrictors, and of the free coordinates."""
         free = np.flatnonzero(self.drive.free)
-        passed = np.array([self._passed(number)[0] for number in self.film.restricted])
-        own = self.respond(-self.linear.balance[..., None], passed[:, None])
-        if not free.size:
-            return own, np.zeros(0)
         if self.columns is None:
             self.columns = self.by_coordinates()
-        moved = self.respond(-self.columns)
-        matrix = self.force_of(moved)[free] - self.drive.stiffness[np.ix_(free, free)]
-        net_force = (self.film.force(self.pressure) + self.pull + self.force_of(own)[:, 0])[free]
+        passed = np.zeros((len(self.film.restricted), 1 + free.size))
+        passed[:, 0] = [self._passed(number)[0] for number in self.film.restricted]
+        response = self.respond(-np.concatenate([self.linear.balance[..., None], self.columns], axis=-1), passed)
+        forces = self.force_of(response)[free]
+        matrix = forces[:, 1:] - self.drive.stiffness[np.ix_(free, free)]
+        net_force = (self.film.force(self.pressure) + self.pull)[free] + forces[:, 0]
         places = _solved(matrix, -net_force)
-        return Response(
-            change=own.change + (moved.change @ places)[..., None],
-            pressures=own.pressures + (moved.pressures @ places)[:, None],
-        ), places
+        weights = np.append(1.0, places)
+        return response.change @ weights, response.pressures @ weights, places
 
 
 def _solved(matrix: Array, right: Array) -> Array:
@@ -292,13 +289,13 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
                 force_residual=force_residual,
                 iterations=iteration,
             )
-        response, places = trial.step()
+        change, pressures, places = trial.step()
         moved = np.zeros(trial.place.size)
         moved[free] = places
         part = _admissible(film, trial.faces.thickness, moved)
         trial.place = trial.place + part * moved
-        trial.pressures[list(film.restricted)] += part * response.pressures[:, 0]
-        _advance(trial, part * response.change[..., 0])
+        trial.pressures[list(film.restricted)] += part * pressures
+        _advance(trial, part * change)
         whole = part == 1
         if not whole or iteration % COLUMNS_KEPT == COLUMNS_KEPT - 1:
             trial.columns = None

@@ -1,5 +1,6 @@
 """A film between two rigid walls, one of which is displaced: its thickness is linear in a few coordinates."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -72,9 +73,12 @@ class MovingFilm:
     ruptures: bool = True
 
     @cached_property
-    def _sampled(self) -> list[tuple[Array, Array]]:
-        """h₀, and n of each coordinate in its last axis, at every position at which the film is sampled."""
-        return [(self.problem.shape.thickness(x, y), self.modes(x, y)) for x, y in positions(self.grid)]
+    def _sampled(self) -> tuple[Array, Array, list[tuple[int, ...]]]:
+        """h₀, and n of each coordinate in its last axis, at all positions of samples; the shape of each of these."""
+        places = list(positions(self.grid))
+        rest = np.concatenate([np.asarray(self.problem.shape.thickness(x, y)).ravel() for x, y in places])
+        modes = np.concatenate([self.modes(x, y).reshape(-1, len(self.normals)) for x, y in places])
+        return rest, modes, [x.shape for x, _ in places]
 
     def modes(self, x: Array, y: Array) -> Array:
         """∂h/∂q of each coordinate at positions, in the last axis."""
@@ -114,7 +118,11 @@ class MovingFilm:
 
     def faces(self, place: Array) -> Faces:
         """The film sampled on the grid at coordinates q."""
-        return faces_of((rest + modes @ place for rest, modes in self._sampled), self.shape(place), self.grid)
+        rest, modes, shapes = self._sampled
+        samples = np.split(rest + modes @ place, np.cumsum([math.prod(shape) for shape in shapes])[:-1])
+        return faces_of(
+            (values.reshape(shape) for values, shape in zip(samples, shapes, strict=True)), self.shape(place), self.grid
+        )
 
     def network(
         self,
