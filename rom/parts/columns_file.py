@@ -65,11 +65,11 @@ def read_columns(
     first, rows = _csv_lines(text, header)
     names, units = [], []
     for cell in first[1]:
-        name, unit = _head(cell.strip(), columns, header)
+        name, both = _head(cell.strip(), columns, header)
         if name in names:
             raise ValueError(f"line {first[0]}: got {name} twice; give each column once")
         names.append(name)
-        units.append(unit)
+        units.append(both)
     values: list[list[float]] = [[] for _ in names]
     for number, row in rows:
         if len(row) != len(names):
@@ -79,9 +79,7 @@ def read_columns(
                 column.append(_number(cell.strip(), unit, base))
             except ValueError as error:
                 raise ValueError(f"line {number}: {name}: {error}") from None
-    return {
-        name: (base, tuple(column)) for name, (_, base), column in zip(names, units, values, strict=True)
-    }
+    return {name: (base, tuple(column)) for name, (_, base), column in zip(names, units, values, strict=True)}
 
 
 def _number(cell: str, unit: str, base: str) -> float:
@@ -100,7 +98,9 @@ def _head(cell: str, columns: Mapping[str, Sequence[str]], header: str) -> tuple
     match = _COLUMN.fullmatch(cell)
     name, unit = (match[1].lower(), match[2]) if match else (cell.lower(), "")
     if name not in columns:
-        raise ValueError(f"line 1: got the column {cell!r:.40}; the columns are {', '.join(columns)}, such as: {header}")
+        raise ValueError(
+            f"line 1: got the column {cell!r:.40}; the columns are {', '.join(columns)}, such as: {header}"
+        )
     allowed = columns[name]
     if "1" in allowed and unit in ("", "1", "-"):
         return name, ("", "1")

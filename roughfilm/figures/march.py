@@ -22,7 +22,7 @@ FLOW = 60e6
 
 def orbit(march: March) -> Figure:
     """The path of the centre of the shaft over the clearance, in the room that the bore leaves it."""
-    figure, axes = new_figure((5.6, 5.2))
+    figure, axes = new_figure((8.4, 5.2))
     x, y = march["eccentricity_x"], march["eccentricity_y"]
     late = march.time >= march.first
     limit = room(march.scene)
@@ -33,7 +33,7 @@ def orbit(march: March) -> Figure:
     axes.plot(x[0], y[0], "o", color="#444444", markersize=4, label="start")
     axes.plot(x[least], y[least], "o", color=COLOURS[1], markersize=5, label="least film")
     axes.set(xlabel="x over the clearance", ylabel="y over the clearance", aspect="equal")
-    axes.legend(fontsize=8, loc="upper right")
+    axes.legend(fontsize=9, loc="center left", bbox_to_anchor=(1.02, 0.5))
     return figure
 
 
@@ -65,14 +65,26 @@ def over_time(march: March) -> Figure:
     for name, colour in zip(forces, COLOURS, strict=False):
         part = name.removeprefix("load_force").removeprefix("_") or "normal"
         load.plot(time, 1e-3 * march[name], color=colour, label=f"load, {part}")
-        load.plot(time, -1e-3 * march[name.replace("load_", "film_")], color=colour, linestyle=":", label=f"minus film, {part}")
+        load.plot(
+            time,
+            -1e-3 * march[name.replace("load_", "film_")],
+            color=colour,
+            linestyle=":",
+            label=f"minus film, {part}",
+        )
     load.set(ylabel="force, kN" if units[forces[0]] == "N" else "force per width, kN/m")
     power.plot(time, march["power_loss"], color=COLOURS[0], label="all")
     power.plot(time, march["power_squeeze"], color=COLOURS[3], label="by squeezing")
     power.set(ylabel=f"power loss, {units['power_loss']}")
     wide = units["volume_rate"] == "m^2/s"
-    for name, colour in zip([n for n in units if "_flow" in n and n.startswith(("supply", "inlet", "outlet", "side"))], COLOURS, strict=False):
-        flows.plot(time, (1e6 if wide else FLOW) * march[name], color=colour, label=name.replace("_flow", "").replace("_", " "))
+    for name, colour in zip(
+        [n for n in units if "_flow" in n and n.startswith(("supply", "inlet", "outlet", "side"))],
+        COLOURS,
+        strict=False,
+    ):
+        flows.plot(
+            time, (1e6 if wide else FLOW) * march[name], color=colour, label=name.replace("_flow", "").replace("_", " ")
+        )
     flows.plot(time, (1e6 if wide else FLOW) * march["volume_rate"], color="#888888", linewidth=0.8, label="storage")
     flows.set(ylabel="flow, mm²/s" if wide else "flow, ml/min")
     cavities.plot(time, 100 * march["cavitated_fraction"], color=COLOURS[2])

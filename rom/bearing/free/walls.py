@@ -16,7 +16,7 @@ def wall_of(scene: Bearing, film: float | None = None) -> RigidWall:
 
     Parameters
     ----------
-    film : the least film thickness of other shapes, m; by default that of the scene, or the one expected under its load.
+    film : the least film thickness of other shapes, m; by default that of the scene, or that expected under its load.
 
     Raises
     ------

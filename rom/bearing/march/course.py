@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
-from roughfilm.rom.bearing.free.film import FreeFilm, free_film, load_of_scene
+from roughfilm.rom.bearing.free.film import FreeFilm, free_film
 from roughfilm.rom.bearing.free.walls import wall_of
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.moving.body import Body, Start
 from roughfilm.rom.bearing.moving.over_time import Curve
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
-from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
+from roughfilm.rom.cavitation.motion.coupled import Drive, settled
 from roughfilm.rom.cavitation.motion.march import Course, Moving, begun
 
 TURNS = 20
@@ -73,7 +73,7 @@ class Duty:
 
     @property
     def turn(self) -> float | None:
-        """The time of a turn of the shaft, or in which the sliding wall passes the film, at the speed of the scene, s."""
+        """The time of a turn of the shaft, or in which the sliding wall passes the film, s; None without sliding."""
         speed = abs(self.scene.motion.speed)
         return self.scene.geometry.length / speed if speed > 0 else None
 
@@ -198,7 +198,7 @@ class Duty:
 
     @cached_property
     def fastest_rate(self) -> float:
-        """The largest rotational speed of the shaft, rad/s, or rate at which the sliding wall passes the film times 2π."""
+        """The largest rotational speed of the shaft, or 2π times the rate at which the wall passes the film, rad/s."""
         curve, geometry = self.curves.get("speed"), self.scene.geometry
         if curve is None:
             return 2 * math.pi * abs(self.scene.motion.speed) / geometry.length
@@ -281,10 +281,9 @@ def _velocity_scale(duty: Duty, film: FreeFilm) -> Array:
     """The size of the velocities of the coordinates, m/s (rad/s)."""
     unit, rate = film.wall.unit, duty.fastest_rate
     scale = rate * unit if duty.lobes else rate / (2 * math.pi) * unit
-    given = [abs(duty.approach)]
-    for name in ("film", "eccentricity_x", "eccentricity_y"):
-        if name in duty.curves:
-            given.append(duty.curves[name].fastest() * (1.0 if name == "film" else float(unit[0])))
+    columns = [name for name in ("film", "eccentricity_x", "eccentricity_y") if name in duty.curves]
+    given = [duty.curves[name].fastest() * (1.0 if name == "film" else float(unit[0])) for name in columns]
+    given.append(abs(duty.approach))
     scale = np.maximum(scale, max(given) * unit / unit[0])
     if scale.max() > 0:
         return np.asarray(scale)
@@ -321,8 +320,10 @@ def started(duty: Duty, film: FreeFilm, *, tolerance: float) -> Moving:
         try:
             instant = equilibrium(film, None, tolerance=tolerance)
         except (InputError, ConvergenceError) as error:
-            place_key = "eccentricity" if duty.lobes else "film"
-            raise InputError(f"body.start.{place_key}: is missing, and the first load has no equilibrium ({error}); give it") from None
+            key = "eccentricity" if duty.lobes else "film"
+            raise InputError(
+                f"body.start.{key}: is missing, and the first load has no equilibrium ({error}); give it"
+            ) from None
         return begun(film.solved, instant, time=begin, velocity=velocity)
     held = free & film.wall.turns
     drive = Drive(
@@ -331,5 +332,5 @@ def started(duty: Duty, film: FreeFilm, *, tolerance: float) -> Moving:
         stiffness=np.diag(np.where(held, 1e-9 * film.wall.unit[0], 0.0)),
         free=np.zeros(count, dtype=bool),
     )
-    instant: Instant = settled(film.solved, film.first(place), drive, tolerance=tolerance)
+    instant = settled(film.solved, film.first(place), drive, tolerance=tolerance)
     return begun(film.solved, replace(instant, place=place), time=begin, velocity=velocity)

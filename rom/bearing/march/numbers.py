@@ -55,13 +55,22 @@ class Observer:
         units |= dict.fromkeys(self._places, flow)
         units |= {"volume": volume, "volume_rate": flow, "flow_imbalance": "1"}
         units["cavitated_fraction"] = "1"
-        return units | {"step": "s", "order": "1", "error": "1", "residual": "1", "force_residual": "1", "iterations": "1"}
+        return units | {
+            "step": "s",
+            "order": "1",
+            "error": "1",
+            "residual": "1",
+            "force_residual": "1",
+            "iterations": "1",
+        }
 
     @property
     def _forces(self) -> tuple[str, ...]:
         """The names of the force on each coordinate."""
         return tuple(
-            f"moment_{name.removeprefix('tilt_')}" if turns else {"eccentricity_x": "force_x", "eccentricity_y": "force_y"}.get(name, "force")
+            f"moment_{name.removeprefix('tilt_')}"
+            if turns
+            else {"eccentricity_x": "force_x", "eccentricity_y": "force_y"}.get(name, "force")
             for name, turns in zip(self.film.wall.names, self.film.wall.turns, strict=True)
         )
 
@@ -161,7 +170,12 @@ class Observer:
             bend, slope = before - 2 * least + after, (after - before) / 2
             step = float(grid.spacing_x[i])
             even = abs(step - float(grid.spacing_x[i - 1])) <= 1e-6 * step
-            if even and not bool((np.abs(x - np.array(shape.breaks)) <= 1e-6 * step).any()) and bend > 0 and abs(slope) <= bend:
+            if (
+                even
+                and not bool((np.abs(x - np.array(shape.breaks)) <= 1e-6 * step).any())
+                and bend > 0
+                and abs(slope) <= bend
+            ):
                 least -= slope**2 / (2 * bend)
                 x -= step * slope / bend
         return least, self._along(x), self._across(int(j))
@@ -215,6 +229,9 @@ class Observer:
                 flows.append((-film.sides if name == "outlet_flow" else film.sides) * flow)
         stored = film.sides * float((areas * instant.faces.thickness * filled).sum())
         rate = film.sides * float((net.storage * filled - net.stored).sum())
-        entering = sum(flow if name.startswith(("supply", "inlet")) else -flow for name, flow in zip(self._places, flows, strict=True))
+        entering = sum(
+            flow if name.startswith(("supply", "inlet")) else -flow
+            for name, flow in zip(self._places, flows, strict=True)
+        )
         largest = max([abs(rate), *map(abs, flows)])
         return flows, stored, rate, (entering - rate) / largest if largest > 0 else 0.0

@@ -1,11 +1,12 @@
 """A march of a bearing with its answer, the uncertainty of the answer, and a file from which it goes on."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.ranges import in_range, whole_in_range
@@ -80,11 +81,11 @@ class March:
     warnings: tuple[str, ...]
 
     @property
-    def time(self) -> "np.typing.NDArray[np.float64]":
+    def time(self) -> Array:
         """The times of the steps, s."""
         return self.series.time
 
-    def __getitem__(self, name: str) -> "np.typing.NDArray[np.float64]":
+    def __getitem__(self, name: str) -> Array:
         """The numbers of a name over the steps, in SI units; ``march.series.units`` has the names."""
         if name not in self.series.units:
             raise InputError(f"march: got {name!r:.60}; the numbers are {', '.join(self.series.units)}")
@@ -162,8 +163,10 @@ def march_bearing(
     duty = Duty(scene=scene)
     refuse_unsupported(duty)
     numerics = numerics_of(duty, end=end, error=error, steps=steps, cells=cells, fields=fields)
+    entries = scene_entries(scene)
+    entries.pop("name", None)
     settings = {
-        "scene": scene_entries(scene),
+        "scene": entries,
         "cells": list(cells),
         "end": numerics.end,
         "error": numerics.error,
@@ -171,7 +174,6 @@ def march_bearing(
         "fields": fields,
         "code": code(),
     }
-    settings["scene"].pop("name", None)
     inputs = Inputs(heights=np.zeros((0, 0)), spacing=(0.0, 0.0), settings=settings)
     shares = PARTS if uncertain else {"fine": 1.0}
     done = 0.0
@@ -189,12 +191,10 @@ def march_bearing(
 
     series = marched("fine", numerics)
     summary = summary_of(duty, series)
-    quantities, warnings = dict(summary.quantities), _warnings(duty, summary)
+    quantities, warnings = dict(summary.quantities), _warnings(summary)
     done = shares["fine"]
     if uncertain:
-        coarse = replace(
-            numerics, cells=(_coarser(cells[0]), _coarser(cells[1])), field_times=()
-        )
+        coarse = replace(numerics, cells=(_coarser(cells[0]), _coarser(cells[1])), field_times=())
         looser = _looser(coarse)
         try:
             others = [marched("coarse", coarse)]
@@ -234,7 +234,7 @@ def _uncertainties(duty: Duty, summary: Summary, fine: Series, others: list[Seri
         for name, one in summary.quantities.items()
     }
     times = summary.first, summary.last
-    path = apart(duty, fine, others[0], *times) + apart(duty, *others, *times)
+    path = apart(duty, fine, others[0], *times) + apart(duty, others[0], others[1], *times)
     unit = getattr(duty.scene.geometry, "clearance", None) or float(fine["film_min"][0])
     of_path = {"film_min": path * unit, "eccentricity_max": path, "orbit_width": path, "orbit_height": path}
     return {name: max(one, PATH_SAFETY * of_path.get(name, 0.0)) for name, one in found.items()}
@@ -263,7 +263,7 @@ def _looser(numerics: Numerics) -> Numerics:
     return replace(numerics, error=min(COARSER_ERROR * numerics.error, 1.0))
 
 
-def _warnings(duty: Duty, summary: Summary) -> list[str]:
+def _warnings(summary: Summary) -> list[str]:
     """Why the answer may not hold later."""
     if summary.settled is None or summary.settled:
         return []

@@ -75,7 +75,7 @@ def kept(path: Path, inputs: Inputs, march: str) -> tuple[Chunk, ...]:
 
 
 def _chunk(group: h5py.Group) -> Chunk:
-    snapshots = group["snapshots"] if "snapshots" in group else {}
+    snapshots = group.get("snapshots", {})
     return Chunk(
         rows=group["rows"][()],
         snapshots=tuple(

@@ -97,17 +97,18 @@ def mean(series: Series, name: str, first: float, last: float) -> float:
 def apart(duty: Duty, one: Series, other: Series, first: float, last: float) -> float:
     """The largest difference of two paths between two times, over the clearance or over the first film."""
     times = np.linspace(first, last, SAMPLES)
-    paths = [
-        np.array([np.interp(times, series.time, values) for values in _places(duty, series).T]) for series in (one, other)
-    ]
-    return float(np.hypot.reduce(np.abs(paths[0] - paths[1]), axis=0).max())
+    first_path, second_path = (
+        np.array([np.interp(times, series.time, values) for values in _places(duty, series).T])
+        for series in (one, other)
+    )
+    return float(np.hypot.reduce(np.abs(first_path - second_path), axis=0).max())
 
 
 def _places(duty: Duty, series: Series) -> Array:
     """The coordinates of the wall over the steps, over the clearance or the first film, shape (steps, k)."""
     if duty.lobes:
         return np.stack([series["eccentricity_x"], series["eccentricity_y"]], axis=1)
-    return series["film"][:, None] / series["film"][0]
+    return np.asarray(series["film"][:, None] / series["film"][0])
 
 
 def _window(duty: Duty, series: Series) -> tuple[float, float, str, bool | None]:

@@ -32,9 +32,17 @@ def check_motion(geometry: AnyShape, over_time: OverTime | None, body: Body | No
         raise ValueError(f"motion.over_time.{wrong[0]}: got it for shape = {geometry.shape!r}; give {remedy}")
     turns = isinstance(geometry, Shaft | Ring)
     if over_time is not None and over_time.table.units.get("speed") == "rad/s" and not turns:
-        raise ValueError(f"motion.over_time.speed: got a rotational one, but shape = {geometry.shape!r} slides; give m/s")
-    if over_time is not None and geometry.width is None and "N" in {over_time.table.units.get(n) for n in ("load", "load_x")}:
-        raise ValueError("motion.over_time.load: got a force for an infinitely wide bearing; give N/m in a file, or a width")
+        raise ValueError(
+            f"motion.over_time.speed: got a rotational one, but shape = {geometry.shape!r} slides; give m/s"
+        )
+    if (
+        over_time is not None
+        and geometry.width is None
+        and "N" in {over_time.table.units.get(n) for n in ("load", "load_x")}
+    ):
+        raise ValueError(
+            "motion.over_time.load: got a force for an infinitely wide bearing; give N/m in a file, or a width"
+        )
     given = {"film", "eccentricity_x"} & columns
     if given and loaded:
         raise ValueError(f"motion.over_time.{min(given)}: got a path beside [load]; give one of the two")
@@ -51,8 +59,8 @@ def _check_path(geometry: Lobes, over_time: OverTime) -> None:
     if least[row] <= 0:
         place = [float(columns[name][row]) for name in ("eccentricity_x", "eccentricity_y")]
         raise ValueError(
-            f"motion.over_time.eccentricity_x: got {place} in row {row + 1}; the shaft reaches {-least[row]:.3g} m into "
-            "the bore; lower it"
+            f"motion.over_time.eccentricity_x: got {place} in row {row + 1}; the shaft reaches {-least[row]:.3g} m "
+            "into the bore; lower it"
         )
 
 
@@ -65,7 +73,7 @@ def _check_body(geometry: AnyShape, body: Body, *, free: bool) -> None:
     start = body.start
     if start is None:
         return
-    if lobes and start.film is not None or not lobes and start.eccentricity is not None:
+    if (lobes and start.film is not None) or (not lobes and start.eccentricity is not None):
         wrong, right = ("film", "eccentricity") if lobes else ("eccentricity", "film")
         raise ValueError(f"body.start.{wrong}: got it for shape = {geometry.shape!r}; give {right}")
     if start.velocity is not None and len(start.velocity) != (2 if lobes else 1):
@@ -76,6 +84,6 @@ def _check_body(geometry: AnyShape, body: Body, *, free: bool) -> None:
         placed = geometry.model_copy(update={"eccentricity": start.eccentricity})
         if placed.least_film <= 0:
             raise ValueError(
-                f"body.start.eccentricity: got {list(start.eccentricity)}; the shaft reaches {-placed.least_film:.3g} m "
-                "into the bore; lower it"
+                f"body.start.eccentricity: got {list(start.eccentricity)}; the shaft reaches {-placed.least_film:.3g} "
+                "m into the bore; lower it"
             )

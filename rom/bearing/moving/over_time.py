@@ -235,7 +235,9 @@ def checked_table(columns: Mapping[str, tuple[str, Sequence[float]]], period: fl
         raise ValueError(f"time: got {len(times)} rows; give {MIN_ROWS} to {MAX_ROWS}")
     for number, (before, after) in enumerate(pairwise(times), 2):
         if not after > before:
-            raise ValueError(f"time: got {after!r} s in row {number} after {before!r} s; sort the rows by increasing time")
+            raise ValueError(
+                f"time: got {after!r} s in row {number} after {before!r} s; sort the rows by increasing time"
+            )
     others = {name: column for name, column in columns.items() if name != "time"}
     if not others:
         raise ValueError(f"time: got no column beside it; give one of {', '.join(list(UNITS)[1:])}")
@@ -245,19 +247,26 @@ def checked_table(columns: Mapping[str, tuple[str, Sequence[float]]], period: fl
     _refuse_double(others)
     for name, (_, values) in others.items():
         least = min(values)
-        if name in ("film", "load") and least < 0 or name == "film" and least == 0:
+        if (name in ("film", "load") and least < 0) or (name == "film" and least == 0):
             row = values.index(least) + 1
-            raise ValueError(f"{name}: got {least!r} in row {row}; it must be {'above 0' if name == 'film' else '0 or more'}")
+            raise ValueError(
+                f"{name}: got {least!r} in row {row}; it must be {'above 0' if name == 'film' else '0 or more'}"
+            )
         if name == "speed" and least < 0 < max(values):
             raise ValueError("speed: got both signs; the wall must slide in one direction, give two scenes")
     if {"eccentricity_x", "eccentricity_y"} <= others.keys():
-        sizes = [math.hypot(*both) for both in zip(others["eccentricity_x"][1], others["eccentricity_y"][1], strict=True)]
+        sizes = [
+            math.hypot(*both) for both in zip(others["eccentricity_x"][1], others["eccentricity_y"][1], strict=True)
+        ]
         if max(sizes) >= 2:
             raise ValueError(
                 f"eccentricity_x: got the distance {max(sizes):.4g} clearances in row {sizes.index(max(sizes)) + 1}; "
                 "positions are over the clearance, give less"
             )
-    time, values = np.array(times, dtype=float), {name: np.array(column[1], dtype=float) for name, column in others.items()}
+    time, values = (
+        np.array(times, dtype=float),
+        {name: np.array(column[1], dtype=float) for name, column in others.items()},
+    )
     if period is not None:
         time, values = _closed(time, values, period)
     return Table(time=time, columns=values, units={name: column[0] for name, column in others.items()}, period=period)
@@ -271,7 +280,8 @@ def _refuse_double(others: Mapping[str, Any]) -> None:
             raise ValueError(f"{missing}: is missing beside {given}; give both")
     loads = {"load", "angle", "load_x"} & others.keys()
     if "load_x" in loads and len(loads) > 1:
-        raise ValueError(f"load_x: got it beside {sorted(loads - {'load_x'})[0]}; give load and angle, or load_x and load_y")
+        other = min(loads - {"load_x"})
+        raise ValueError(f"load_x: got it beside {other}; give load and angle, or load_x and load_y")
     paths = {"film", "eccentricity_x"} & others.keys()
     if len(paths) > 1:
         raise ValueError("film: got it beside eccentricity_x; give one path")
@@ -297,13 +307,13 @@ def _closed(time: Array, values: Mapping[str, Array], period: float) -> tuple[Ar
     closed = {}
     for name, column in values.items():
         gap = float(column[-1] - column[0])
-        turns = round(gap / (2 * math.pi)) * 2 * math.pi if name == "angle" else 0.0
-        if abs(gap - turns) > CLOSING * max(float(np.ptp(column)), 1e-300):
+        rise = round(gap / (2 * math.pi)) * 2 * math.pi if name == "angle" else 0.0
+        if abs(gap - rise) > CLOSING * max(float(np.ptp(column)), 1e-300):
             raise ValueError(
-                f"{name}: got {float(column[0]):.6g} in the first row and {float(column[-1]):.6g} in the last, a period "
-                "later; a table that repeats ends where it begins"
+                f"{name}: got {float(column[0]):.6g} in the first row and {float(column[-1]):.6g} in the last, a "
+                "period later; a table that repeats ends where it begins"
             )
-        closed[name] = np.append(column[:-1], column[0] + turns)
+        closed[name] = np.append(column[:-1], column[0] + rise)
     return time, closed
 
 

@@ -74,7 +74,7 @@ def command(
     set_: Overrides = None,
     as_json: AsJson = False,
 ) -> None:
-    """March a bearing in time: film, pressure, load, friction and flows under loads and speeds that change."""
+    """March a bearing in time: film, pressure, load, friction and flows as loads and speeds change."""
     spent = stopwatch()
     bearing = bearing_of(load_scene(scene, set_ or ()))
     page, stored = out / "report.html", out / "series.h5"
