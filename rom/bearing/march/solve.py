@@ -203,7 +203,7 @@ def march_bearing(
         except ConvergenceError as fault:
             warnings.append(f"no uncertainty: the march on a coarser grid stopped ({fault})")
         else:
-            uncertainties = _uncertainties(duty, summary, series, others)
+            uncertainties = _uncertainties(duty, summary, series, others, cells[0])
             quantities = {name: replace(one, uncertainty=uncertainties[name]) for name, one in quantities.items()}
     march = March(
         scene=scene,
@@ -222,10 +222,13 @@ def march_bearing(
     return march
 
 
-def _uncertainties(duty: Duty, summary: Summary, fine: Series, others: list[Series]) -> dict[str, float]:
+def _uncertainties(
+    duty: Duty, summary: Summary, fine: Series, others: list[Series], fine_cells: int
+) -> dict[str, float]:
     """The uncertainty of each quantity, from a coarser grid, and from that with longer steps too.
 
-    The difference of two extremes may be small by chance; that of the paths on which they lie bounds it from below.
+    The difference of two extremes may be small by chance; that of the paths on which they lie bounds it from below, and
+    the edge of a cavity is known to one cell along the film.
     """
     coarse, looser = (summary_of(duty, one).quantities for one in others)
     found = {
@@ -236,8 +239,9 @@ def _uncertainties(duty: Duty, summary: Summary, fine: Series, others: list[Seri
     times = summary.first, summary.last
     path = apart(duty, fine, others[0], *times) + apart(duty, others[0], others[1], *times)
     unit = getattr(duty.scene.geometry, "clearance", None) or float(fine["film_min"][0])
-    of_path = {"film_min": path * unit, "eccentricity_max": path, "orbit_width": path, "orbit_height": path}
-    return {name: max(one, PATH_SAFETY * of_path.get(name, 0.0)) for name, one in found.items()}
+    least = dict.fromkeys(("eccentricity_max", "orbit_width", "orbit_height"), PATH_SAFETY * path)
+    least |= {"film_min": PATH_SAFETY * path * unit, "cavitated_fraction_max": 1 / fine_cells}
+    return {name: max(one, least.get(name, 0.0)) for name, one in found.items()}
 
 
 def entries_of(quantities: Mapping[str, Quantity]) -> dict[str, dict[str, float | str]]:
