@@ -197,17 +197,20 @@ def network(
     nx, ny = grid.shape
     across = grid.volume_y * grid.radius
     couette = 0.5 * speed * across * faces.mean
+    count = len(PARTS) if ruptures else 0
     with np.errstate(divide="ignore", invalid="ignore"):
-        east = faces.east * grid.volume_y / (12 * viscosity * grid.radius * grid.spacing_x[:, None])
+        resistance = 12 * viscosity * grid.radius * grid.spacing_x[:, None]
+        east = faces.east * grid.volume_y / resistance
         towards = (grid.radius + np.roll(grid.radius, -1)) / 2
         north = faces.north * grid.volume_x[:, None] * towards / (12 * viscosity * grid.spacing_y)
-        east[faces.east == 0] = north[faces.north == 0] = 0
-        upstream = np.maximum(0.5, 1 - east / (couette * compressibility))
-        part_east = faces.parts[1] * grid.volume_y / (12 * viscosity * grid.radius * grid.spacing_x[:, None])
-        part_east[faces.parts[1] == 0] = 0
-    upstream[couette * compressibility == 0] = 0.5
-    count = len(PARTS) if ruptures else 0
-    part_couette, part_east = 0.5 * speed * across * faces.parts[0, :count], part_east[:count]
+        part_east = faces.parts[1, :count] * grid.volume_y / resistance
+        for conductance, integrals in ((east, faces.east), (north, faces.north), (part_east, faces.parts[1, :count])):
+            conductance[integrals == 0] = 0
+        advected = couette * compressibility
+        upstream = np.full((nx, ny), 0.5)
+        if advected.any():
+            upstream[advected != 0] = np.maximum(0.5, 1 - east / advected)[advected != 0]
+    part_couette = 0.5 * speed * across * faces.parts[0, :count]
     fixed, pressure = np.zeros((nx, ny), dtype=bool), np.zeros((nx, ny))
     supply = None
     if grid.spacing_x[-1] == 0:

@@ -1,4 +1,4 @@
-"""The walls of bearings as rigid bodies: a shaft in lobes, or a wall that moves along its normal."""
+"""Walls that move along their normal."""
 
 import numpy as np
 
@@ -6,17 +6,16 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.geometry.journal import Journal
-from roughfilm.rom.bearing.geometry.lobes import Lobes
-from roughfilm.rom.bearing.geometry.rigid import RigidWall
+from roughfilm.rom.bearing.geometry.rigid import MovingWall, RigidWall
 from roughfilm.rom.bearing.scene import Bearing
 
 
 def wall_of(scene: Bearing, film: float | None = None) -> RigidWall:
-    """The coordinates of the wall: those of a shaft and of pads in lobes, or the least film thickness of other shapes.
+    """The coordinate of a wall that moves along its normal: the least film thickness.
 
     Parameters
     ----------
-    film : the least film thickness of other shapes, m; by default that of the scene, or that expected under its load.
+    film : the least film thickness, m; by default that of the scene, or that expected under its load.
 
     Raises
     ------
@@ -24,8 +23,6 @@ def wall_of(scene: Bearing, film: float | None = None) -> RigidWall:
         For shape = "journal", whose load has no direction.
     """
     geometry = scene.geometry
-    if isinstance(geometry, Lobes):
-        return geometry.wall
     if isinstance(geometry, Journal):
         raise InputError("geometry.shape: got 'journal', whose shaft has no coordinates; take shape = 'lobes'")
     if film is None:
@@ -42,4 +39,4 @@ def wall_of(scene: Bearing, film: float | None = None) -> RigidWall:
 def bearing_at(scene: Bearing, place: Array) -> Bearing:
     """The bearing without a load, with its wall at its coordinates."""
     geometry = scene.geometry
-    return scene.moved(geometry.at(place)) if isinstance(geometry, Lobes) else scene.at_film(float(place[0]))
+    return scene.moved(geometry.at(place)) if isinstance(geometry, MovingWall) else scene.at_film(float(place[0]))

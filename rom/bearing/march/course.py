@@ -12,7 +12,10 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
 from roughfilm.rom.bearing.free.walls import wall_of
+from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.pivoted import Tilting
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.moving.body import Body, Start
 from roughfilm.rom.bearing.moving.over_time import Curve
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
@@ -221,7 +224,12 @@ def refuse_unsupported(duty: Duty) -> None:
         raise InputError(f"{part}: got some, but a march has smooth walls; leave [{part}] out")
     if scene.boundary.inlet.ram_factor and "speed" in duty.curves:
         raise InputError("boundary.inlet.ram_factor: got one with a speed over time; give the pressure of the inlet")
-    wall_of(scene, film=1.0)
+    if isinstance(scene.geometry, Journal):
+        wall_of(scene)
+    if isinstance(scene.geometry, Tilting):
+        raise InputError(
+            f"geometry.shape: got {scene.geometry.shape!r}, which has no march; take a shape with a given tilt"
+        )
     if duty.approach and not duty.given_path:
         raise InputError("motion.approach: got one beside a load; give one of the two")
     if duty.approach and scene.geometry.film is None:
@@ -236,16 +244,17 @@ def film_at(duty: Duty, cells: tuple[int, int]) -> FreeFilm:
     speed = duty.speed(duty.begin) * (1.0 if duty.lobes else radius) or float(max(speeds, key=abs))
     at_start = scene.model_copy(
         update={
-            "motion": scene.motion.model_copy(update={"speed": speed}),
+            "motion": scene.motion.model_copy(update={"speed": speed, "approach": 0.0}),
             "load": _first_load(duty),
         }
     )
     film = None
-    if not duty.lobes:
+    if not isinstance(scene.geometry, MovingWall):
         film = start.film or (duty.curves["film"](duty.begin) if "film" in duty.curves else None)
         if film is None and scene.geometry.film is None and (scene.motion.speed == 0 or at_start.load is None):
             raise InputError("body.start.film: is missing for a first film without speed or load; give it")
-    return free_film(at_start, cells, wall=wall_of(at_start, film))
+    moving = isinstance(scene.geometry, MovingWall)
+    return free_film(at_start, cells, wall=None if moving else wall_of(at_start, film))
 
 
 def _first_load(duty: Duty) -> BearingLoad | None:
