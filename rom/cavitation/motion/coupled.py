@@ -32,6 +32,9 @@ In the plane they follow a step only if it changed fewer nodes than all before, 
 move nodes to and fro; and everywhere only if no storage is negative, so that the balances form an M-function.
 """
 
+NEAR_LINEAR, MIN_PASSABLE = 0.5, 1e-3
+"""Relative change by which the flow through a restrictor may differ from a linear one in a step, and the least part."""
+
 LEAST_FLOW = 1e-3
 """Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
 
@@ -232,7 +235,7 @@ class Trial:
         return np.asarray(force)
 
     def step(self) -> tuple[Array, Array, Array]:
-        """The changes of the unknowns of the nodes, of the pressures behind restrictors, and of the free coordinates."""
+        """The changes of the unknowns of nodes, of the pressures behind restrictors, and of the free coordinates."""
         free = np.flatnonzero(self.drive.free)
         if self.columns is None:
             self.columns = self.by_coordinates()
@@ -293,14 +296,15 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         If the iteration does not converge.
     """
     trial = trial_at(film, start, drive)
-    free, changed, line = np.flatnonzero(drive.free), 0, film.grid.shape[1] == 1
+    free, whole, changed, line = np.flatnonzero(drive.free), True, 0, film.grid.shape[1] == 1
     residual = force_residual = fewest = np.inf
     for iteration in range(limit + 1):
-        trial.sample()
-        if film.ruptures and 0 < changed < fewest and trial.network.storage.min() >= 0:
-            fewest = np.inf if line else changed
-            trial.relax()
-        trial.evaluate()
+        with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
+            trial.sample()
+            if film.ruptures and 0 < changed < fewest and trial.network.storage.min() >= 0:
+                fewest = np.inf if line else changed
+                trial.relax()
+            trial.evaluate()
         rest = trial.rest
         unbalanced = max(float(np.abs(rest).max()), float(np.abs(trial.inflow_excess).max(initial=0.0)))
         residual, imbalance = unbalanced / trial.largest, abs(float(rest.sum())) / trial.entering
@@ -309,7 +313,8 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         force_residual = float(net_force[free].max(initial=0.0))
         if not np.isfinite(residual + force_residual):
             break
-        if max(residual, imbalance) <= least and force_residual <= FORCE_TOLERANCE and not changed:
+        if max(residual, imbalance) <= least and force_residual <= FORCE_TOLERANCE and whole:
+            _check_restrictors(trial)
             return Instant(
                 place=trial.place,
                 pressures=trial.pressures,
@@ -325,11 +330,12 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         change, pressures, places = trial.step()
         moved = np.zeros(trial.place.size)
         moved[free] = places
-        part = _admissible(film, trial.faces.thickness, moved)
+        part = _admissible(film, trial.faces.thickness, moved) * _passable(trial, pressures)
         trial.place = trial.place + part * moved
         trial.pressures[list(film.restricted)] += part * pressures
-        changed = _advance(trial, part * change) + int(part < 1)
-        if part < 1 or iteration % COLUMNS_KEPT == COLUMNS_KEPT - 1:
+        changed = _advance(trial, part * change)
+        whole = part == 1
+        if not whole or iteration % COLUMNS_KEPT == COLUMNS_KEPT - 1:
             trial.columns = None
     finite = np.isfinite(residual + force_residual)
     reason = (
@@ -344,6 +350,35 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
     )
 
 
+def _check_restrictors(trial: Trial) -> None:
+    """Raise ConvergenceError if a film takes in more than a restrictor passes at cavitation pressure."""
+    if trial.film.ruptures and min(trial.pressures[list(trial.film.restricted)], default=0.0) < 0:
+        raise ConvergenceError(
+            "supply: the film takes in more than a restrictor passes, and the pressure behind it falls below that of "
+            "cavitation; raise the pressure of the supply or widen the restrictor",
+            outcome=Outcome.STALLED,
+        )
+
+
+def _passable(trial: Trial, change: Array) -> float:
+    """The part, halved from 1, of a change of the pressures behind restrictors over which their flows are near linear.
+
+    Newton's method from Δp to -Δp and back would go on for ever through an orifice, whose flow changes as √Δp.
+    """
+    part = 1.0
+    for number, moved in zip(trial.film.restricted, change, strict=True):
+        inflow = trial.film.inflows[number]
+        assert inflow.restrictor is not None
+        drop = inflow.pressure - float(trial.pressures[number])
+        flow, slope = inflow.restrictor.flow(drop)
+        while part > MIN_PASSABLE:
+            linear, passed = flow - slope * part * moved, inflow.restrictor.flow(drop - part * float(moved))[0]
+            if abs(passed - linear) <= NEAR_LINEAR * max(abs(flow), abs(linear)):
+                break
+            part /= 2
+    return part
+
+
 def _admissible(film: MovingFilm, thickness: Array, moved: Array) -> float:
     """The largest part, up to 1, of a change of the coordinates that closes no film by more than ``MAX_APPROACH``."""
     closing = -(film.at_nodes @ moved) / thickness
@@ -353,8 +388,7 @@ def _admissible(film: MovingFilm, thickness: Array, moved: Array) -> float:
 def _advance(trial: Trial, change: Array) -> int:
     """Add the change to the unknowns of the nodes; returns how many nodes changed their kind."""
     if trial.film.ruptures:
-        flat = (values.reshape(-1) for values in (trial.kind, trial.pressure, trial.fill, change))
-        return int(advance(*flat))
+        return int(advance(*(values.reshape(-1) for values in (trial.kind, trial.pressure, trial.fill, change))))
     trial.pressure += np.where(trial.kind == FILM, change, 0.0)
     return 0
 

@@ -4,7 +4,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,39 +13,11 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.cavitation.discretise import Faces, faces_of, network, positions
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.network import Network
-from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.problem import Inflow, Problem
 from roughfilm.rom.cavitation.shape import Shape
 
 Normal = Callable[[Array, Array], Array]
 """normal(x, y), the derivative ∂h/∂q of the film thickness by a coordinate, vectorised."""
-
-
-class Restrictor(Protocol):
-    """The resistance between a supply of lubricant and the film."""
-
-    def flow(self, drop: float) -> tuple[float, float]:
-        """The flow, m³/s, at a pressure drop, Pa, and its derivative, m³/(Pa s)."""
-        ...
-
-
-Covers = Callable[[Array, Array], NDArray[np.bool_]]
-"""covers(x, y), whether positions lie in a part of the film, vectorised."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Inflow:
-    """A part of the film in which the pressure is uniform, since lubricant is supplied there.
-
-    Attributes
-    ----------
-    covers : covers(x, y), whether positions lie in it, vectorised.
-    pressure : pressure of the supply above cavitation pressure, Pa.
-    restrictor : resistance between the supply and the film; without one the film has the pressure of the supply.
-    """
-
-    covers: Covers
-    pressure: float
-    restrictor: Restrictor | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,10 +90,9 @@ class MovingFilm:
     def faces(self, place: Array) -> Faces:
         """The film sampled on the grid at coordinates q."""
         rest, modes, shapes = self._sampled
-        samples, ends = rest + modes @ place, np.cumsum([math.prod(shape) for shape in shapes])
-        thickness = (
-            samples[end - math.prod(shape) : end].reshape(shape) for end, shape in zip(ends, shapes, strict=True)
-        )
+        counts = [math.prod(shape) for shape in shapes]
+        parts = np.split(rest + modes @ place, np.cumsum(counts)[:-1])
+        thickness = (part.reshape(shape) for part, shape in zip(parts, shapes, strict=True))
         return faces_of(thickness, self.shape(place), self.grid)
 
     def network(
