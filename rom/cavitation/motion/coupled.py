@@ -25,15 +25,15 @@ MAX_APPROACH = 0.6
 FORCE_TOLERANCE = 1e-9
 """Net force on a coordinate over the sum of the sizes of its parts at which the iteration stops."""
 
+NEAR_LINEAR, MIN_PASSABLE = 0.5, 1e-3
+"""Relative change by which the flow through a restrictor may differ from a linear one in a step, and the least part."""
+
 SWEEPS, SWEEPS_OF_LINE = 5, 20
 """Relaxation sweeps after a step that changed the kind of a node, in the plane and on a line.
 
 In the plane they follow a step only if it changed fewer nodes than all before, since steps and sweeps may otherwise
 move nodes to and fro; and everywhere only if no storage is negative, so that the balances form an M-function.
 """
-
-NEAR_LINEAR, MIN_PASSABLE = 0.5, 1e-3
-"""Relative change by which the flow through a restrictor may differ from a linear one in a step, and the least part."""
 
 LEAST_FLOW = 1e-3
 """Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
@@ -126,7 +126,7 @@ class Trial:
         return self
 
     def relax(self) -> None:
-        """Relax the unknowns of the nodes, which moves fronts over many nodes, where a Newton step moves them by one."""
+        """Relax the unknowns of the nodes, which moves fronts over many nodes; a Newton step may move them by one."""
         sweeps = SWEEPS_OF_LINE if self.network.shape[1] == 1 else SWEEPS
         state = relaxed(self.network, self.film.problem, State(pressure=self.pressure, fill=self.fill), sweeps)
         self.pressure, self.fill, self.kind = state.pressure, state.fill, kinds(self.network, state)
@@ -256,7 +256,7 @@ def _solved(matrix: Array, right: Array) -> Array:
         return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         raise ConvergenceError(
-            "motion: the film does not resist the motion of its wall; give a mass, or a place nearer to the equilibrium",
+            "motion: the film does not resist the motion of its wall; give a mass, or a start near the equilibrium",
             outcome=Outcome.DIVERGED,
         ) from None
 
@@ -296,8 +296,9 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         If the iteration does not converge.
     """
     trial = trial_at(film, start, drive)
-    free, whole, changed, line = np.flatnonzero(drive.free), True, 0, film.grid.shape[1] == 1
+    free, whole, line = np.flatnonzero(drive.free), True, film.grid.shape[1] == 1
     residual = force_residual = fewest = np.inf
+    changed = 0
     for iteration in range(limit + 1):
         with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
             trial.sample()
@@ -333,8 +334,7 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         part = _admissible(film, trial.faces.thickness, moved) * _passable(trial, pressures)
         trial.place = trial.place + part * moved
         trial.pressures[list(film.restricted)] += part * pressures
-        changed = _advance(trial, part * change)
-        whole = part == 1
+        changed, whole = _advance(trial, part * change), part == 1
         if not whole or iteration % COLUMNS_KEPT == COLUMNS_KEPT - 1:
             trial.columns = None
     finite = np.isfinite(residual + force_residual)
