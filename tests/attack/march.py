@@ -7,10 +7,9 @@ import numpy as np
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.grid import grid
-from roughfilm.rom.cavitation.motion.coupled import Instant, kinds
+from roughfilm.rom.cavitation.motion.coupled import full_film
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.motion.march import Course, begun, march
-from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
 
@@ -20,26 +19,6 @@ def wedge() -> MovingFilm:
     shape = Shape(thickness=lambda x, y: 0.5 - x + 0 * y, breaks=(0.0, 1.0))
     problem = Problem(shape=shape, ends=Ends(inlet=0.0), speed=1.0, viscosity=1e-3)
     return MovingFilm(problem=problem, grid=grid(shape, (100, 1)), normals=(lambda x, y: 1 + 0 * x + 0 * y,))
-
-
-def first(film: MovingFilm) -> Instant:
-    """The full film at the start."""
-    place = np.ones(1)
-    faces = film.faces(place)
-    network = film.network(faces, np.zeros(0), speed=1.0)
-    state = State(pressure=np.zeros(network.shape), fill=np.ones(network.shape))
-    return Instant(
-        place=place,
-        pressures=np.zeros(0),
-        state=state,
-        kind=kinds(network, state),
-        faces=faces,
-        network=network,
-        balance=np.zeros(network.shape),
-        residual=np.inf,
-        force_residual=np.inf,
-        iterations=0,
-    )
 
 
 COURSE = Course(
@@ -56,6 +35,6 @@ COURSE = Course(
 if __name__ == "__main__":
     loads = {}
     film = wedge()
-    for moving in march(film, COURSE, begun(film, first(film)), 0.5, largest_step=0.0125, error=None):
+    for moving in march(film, COURSE, begun(film, full_film(film, np.ones(1))), 0.5, largest_step=0.0125, error=None):
         loads[f"{moving.now.time:.4f}"] = float(moving.instant.state.pressure.mean())
         write_json({"mean_pressure": loads}, Path("march.json"))

@@ -93,7 +93,7 @@ def short_journal(eccentricity, width):
 
 
 def friswell(eccentricity):
-    """K c/W and B c ω/W of a short journal by closed form, the load downwards, v upwards; Friswell et al. 2010, 5.87."""
+    """K c/W and B c ω/W of a short journal in closed form, v against the load; Friswell et al. 2010, 5.87."""
     e, q = eccentricity, np.pi**2
     h = (q * (1 - e**2) + 16 * e**2) ** -1.5
     root = np.sqrt(1 - e**2)
@@ -149,8 +149,8 @@ def test_infinitely_wide_journals_have_the_coefficients_of_sommerfeld():
     """Without cavitation F = 12πηU(R/c)² ε/((2 + ε²)√(1 - ε²)) across the eccentricity.
 
     It turns with the eccentricity, so that its stiffness across is f/e and along f'(e). A journal that orbits at the
-    rate φ̇ has the force of one that turns at ω - 2φ̇, so that its damping across is 2f/(ωe); along the eccentricity it is
-    12πηR³/(c³(1 - ε²)^(3/2)).
+    rate φ̇ has the force of one that turns at ω - 2φ̇, so that its damping across is 2f/(ωe); that along the eccentricity
+    is 12πηR³/(c³(1 - ε²)^(3/2)).
     """
     e = 0.5
     film = journal((256, 1), wide=True, ruptures=False)
