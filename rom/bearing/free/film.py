@@ -17,11 +17,10 @@ from roughfilm.rom.bearing.geometry.rigid import MovingWall, RigidWall
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.supply.patches import in_the_middle
 from roughfilm.rom.cavitation.grid import doubled, grid
-from roughfilm.rom.cavitation.motion.coupled import Instant, kinds
+from roughfilm.rom.cavitation.motion.coupled import Instant, full_film
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import State, Values
 from roughfilm.rom.cavitation.problem import Inflow, Problem
-from roughfilm.rom.cavitation.restricted import first_pressures
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import Level, Solution, mirrored, mirrored_inflow
 
@@ -68,24 +67,8 @@ class FreeFilm:
         return load_of_scene(self.scene)[: self.wall.place.size] / ((self.scene.geometry.width or 1.0) if line else 1.0)
 
     def first(self, place: Array) -> Instant:
-        """A full film at ambient pressure and given coordinates, from which an iteration starts."""
-        film = self.solved
-        faces = film.faces(place)
-        pressures = first_pressures(film.inflows, film.covered, None)
-        net = film.network(faces, pressures, speed=film.problem.speed)
-        state = State(pressure=np.where(net.fixed, net.pressure, 0.0), fill=np.ones(net.shape))
-        return Instant(
-            place=place,
-            pressures=pressures,
-            state=state,
-            kind=kinds(net, state),
-            faces=faces,
-            network=net,
-            balance=np.zeros(net.shape),
-            residual=np.inf,
-            force_residual=np.inf,
-            iterations=0,
-        )
+        """A full film at given coordinates, from which an iteration starts."""
+        return full_film(self.solved, place)
 
     def widened(self, values: Values) -> Values:
         """Values over the whole width from those of the film that is solved."""
