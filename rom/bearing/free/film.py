@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.equilibrium.expected import fed_film
 from roughfilm.rom.bearing.free.walls import bearing_at
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
@@ -27,8 +28,8 @@ from roughfilm.rom.cavitation.solve import Level, Solution, mirrored, mirrored_i
 WEDGE_LOAD = 0.16
 """Load of an infinitely wide pad over η u L²/h², whose film narrows to about half its thickness."""
 
-MAX_FIRST_FILM = 1e-2
-"""Largest film over the length of a pad at which the search for an equilibrium begins."""
+FIRST_FILM, MAX_FIRST_FILM = 1e-6, 1e-2
+"""Smallest and largest film over the length of a pad at which the search for an equilibrium begins."""
 
 AT_EDGE = 1e-9
 """Distance from the edge of a groove, over the length of the film, up to which a node lies on it."""
@@ -218,5 +219,6 @@ def _started(scene: Bearing) -> Lobes | Pivoted | PivotedSector:
         return geometry
     share = 1.0 if geometry.width is None else 1 / (1 + (geometry.length / geometry.width) ** 2)
     sheared = scene.lubricant.viscosity * abs(scene.motion.speed) * geometry.length
-    film = min(math.sqrt(WEDGE_LOAD * share * sheared / pressure), MAX_FIRST_FILM * geometry.length)
+    film = max(math.sqrt(WEDGE_LOAD * share * sheared / pressure), fed_film(scene), FIRST_FILM * geometry.length)
+    film = min(film, MAX_FIRST_FILM * geometry.length)
     return geometry.started(film, reverse=scene.motion.speed < 0)
