@@ -131,10 +131,8 @@ def in_time(scene: Bearing, within: float) -> InTime | None:
     try:
         found = quasi_static(duty)
     except (InputError, ConvergenceError) as error:
-        line = (
-            f"load over time: not every load has a film in equilibrium ({error}); only roughfilm march gives its film"
-        )
-        return InTime(scene=heaviest, lines=(line,), entries={"quasi_static": None})
+        line = f"load over time: not every load has a film in equilibrium ({error}); take roughfilm march"
+        return InTime(lines=(line, JUDGED), entries={"quasi_static": None})
     change, rate = found.change, found.faster(within)
     small = abs(change) <= MAX_CHANGE
     size = f"by up to about {100 * abs(change):.2g} %" if small else f"possibly by more than {100 * MAX_CHANGE:g} %"
