@@ -110,8 +110,12 @@ def test_butenschoens_squeezed_journal_with_a_misprint_and_its_side_flows(monkey
 def test_two_methods_without_common_code_agree_on_a_journal(eccentricity, width, turns):
     """Both are extrapolated from two grids at second order."""
     second = [journal_by_obstacle(eccentricity, width, cells, turns=turns) for cells in ((32, 16), (64, 32))]
-    of = journal if turns else squeezed_journal
-    ours = [of(eccentricity, width, Grids(wide=cells, close=cells)) for cells in (48, 96)]
+    ours = [
+        journal(eccentricity, width, Grids(wide=cells, close=cells))
+        if turns
+        else squeezed_journal(eccentricity, width, cells)
+        for cells in (48, 96)
+    ]
     rate = SPEED / RADIUS if turns else 1.0
     loads, flows = (
         [number(result).value for result in ours]
