@@ -16,9 +16,11 @@ from roughfilm.contact.foundation.units import Quantity, to_si
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.geometry.shapes import SHAPES
+from roughfilm.rom.bearing.moving.over_time import UNITS as COLUMNS_OVER_TIME
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES, RoughSurface
 from roughfilm.rom.bearing.scene import Bearing, BearingMotion
+from roughfilm.rom.bearing.supply.tables import SUPPLIES
 from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
@@ -40,13 +42,14 @@ MIN_LOAD_OVER_FRICTION = 1e-3
 
 SYMBOLS = {"compression": "ϑ", "starvation": "θ", "slenderness": "B/L"}
 
-CHOSEN: Mapping[tuple[str, ...], Mapping[str, type[Part]]] = {
+CHOSEN: Mapping[tuple[str | None, ...], Mapping[str, type[Part]]] = {
     ("geometry",): SHAPES,
     ("lubricant", "compressibility"): LAWS,
     ("lubricant", "piezoviscosity"): LAWS,
     ("roughness",): ROUGHNESSES,
+    ("supply", None): SUPPLIES,
 }
-"""Tables of a scene whose classes depend on one of their keys."""
+"""Tables of a scene whose classes depend on one of their keys; None is the number of a table in a list."""
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
@@ -95,9 +98,13 @@ def _without_tags(path: Location) -> tuple[list[int | str], type[Part] | None]:
     """The place of an error in the file, and the class of its table if the table is a shape or a law."""
     for place, classes in CHOSEN.items():
         depth = len(place)
-        if tuple(path[:depth]) == place and len(path) > depth and path[depth] in classes:
-            return [*place, *path[depth + 1 :]], classes[str(path[depth])]
+        if _lies_in(path, place) and len(path) > depth and path[depth] in classes:
+            return [*path[:depth], *path[depth + 1 :]], classes[str(path[depth])]
     return list(path), None
+
+
+def _lies_in(path: Location, place: tuple[str | None, ...]) -> bool:
+    return len(path) >= len(place) and all(b in (None, a) for a, b in zip(path, place, strict=False))
 
 
 def validation_faults(error: ValidationError, _entries: Mapping[str, Any]) -> list[Fault]:
@@ -105,7 +112,7 @@ def validation_faults(error: ValidationError, _entries: Mapping[str, Any]) -> li
 
     def unknown(place: Location) -> tuple[str, str]:
         (*path, key), chosen = _without_tags(place)
-        inner = next((path[len(place) :] for place in CHOSEN if tuple(path[: len(place)]) == place), None)
+        inner = next((path[len(place) :] for place in CHOSEN if _lies_in(path, place)), None)
         return unknown_key(
             key, known_keys(Bearing, path) if chosen is None or inner is None else known_keys(chosen, inner)
         )
@@ -259,8 +266,15 @@ KIND = Kind(
     lawless=squeezed,
     omitted=omitted,
     missing=missing,
-    files=frozenset({"table", "surface", "thickness"}),
-    lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
+    files=frozenset({"table", "surface", "thickness", "file"}),
+    lists=frozenset(
+        {
+            ("roughness", "spacing"),
+            ("roughness", "surface", "size"),
+            ("roughness", "surface", "points"),
+            *(("motion", "over_time", name) for name in COLUMNS_OVER_TIME),
+        }
+    ),
     faults=validation_faults,
     replaces={
         "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
@@ -279,6 +293,7 @@ KIND = Kind(
         "roughness.surface": ("digest", "spacing"),
         "roughness.table": ("digest",),
         "geometry.thickness": ("digest",),
+        "motion.over_time.file": ("digest",),
         "load.pressure": ("force", "force_per_width"),
         "load.force": ("pressure", "force_per_width"),
         "load.force_per_width": ("pressure", "force"),

@@ -8,9 +8,13 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.bearing.geometry.journal import Journal
+from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
+from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.supply.quantities import supply_values
 from roughfilm.rom.bearing.totals.least_film import least_film
+from roughfilm.rom.bearing.totals.pads import of_pad
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio, filled_fraction
 from roughfilm.rom.cavitation.evaluation.flows import flow_across, flow_along
@@ -22,8 +26,8 @@ from roughfilm.rom.cavitation.solve import Solution
 EXACT = ("film_min", "film_min_x", "film_min_y")
 """Quantities that follow from the geometry alone and have no error of the grid."""
 
-NO_FRICTION = 1e-12
-"""Friction over the load of a film at rest below which it is round-off."""
+ROUND_OFF = 1e-14
+"""Friction over the sum of the sizes of the forces across the film below which it is round-off."""
 
 MIN_MEAN_PRESSURE_RATIO = 1e-6
 """Mean pressure over the maximum pressure below which no friction coefficient is given."""
@@ -44,8 +48,11 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     Where the walls approach each other, ``displaced_flow`` is the flow -∫ θ ∂h/∂t dA that they displace.
     ``film_min`` is the least thickness of the film between the mean planes of the walls, at ``film_min_x`` and
     ``film_min_y`` (:func:`roughfilm.rom.bearing.totals.least_film.least_film`), and ``specific_load`` the load over the
-    nominal area, p. ``hersey_number`` is ηN/p of a wall that turns N times a second, and ηu/(pL) of one that slides;
-    ``sommerfeld_number`` of a journal is ηN/p (R/c)².
+    nominal area, p. ``supply_1_flow`` is what the first supply gives to the film, and ``supply_1_pressure`` the
+    pressure there, behind its restrictor. ``hersey_number`` is ηN/p of a wall that turns N times a second, and ηu/(pL)
+    of one that slides; ``sommerfeld_number`` of a journal is ηN/p (R/c)². A pad about its pivot has ``pivot_film``, its
+    slopes, and the moments of its film about the pivot (:func:`roughfilm.rom.bearing.totals.pads.of_pad`); a misaligned
+    shaft in lobes has moments about the middle of its width (:func:`shaft_moments`).
 
     Parameters
     ----------
@@ -62,8 +69,9 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     drag = drag_of_rows(solution)
     rows = drag.rows + boundary
     load, resistance = load_of(scene, scene_positions(solution), force), float(rows.sum() + drag.between.sum())
-    if problem.speed == 0 and abs(resistance) <= NO_FRICTION * abs(load):
-        rows, resistance = np.zeros_like(rows), 0.0
+    if abs(resistance) <= ROUND_OFF * float(np.abs(force).sum()):
+        resistance = 0.0
+        rows = np.zeros_like(rows) if problem.speed == 0 else rows
     row = int(np.argmax(np.where(solution.kind == FILM, solution.state.pressure, -1.0).max(axis=0)))
     start, end = film_ends(solution, row)
     flows = boundary_flows(solution)
@@ -86,7 +94,10 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         "film_min_x": (least.x, "rad" if problem.shape.polar else "m"),
         "film_start": (start, "1"),
         "rupture": (end, "1"),
-        "cavitated_fraction": (float(grid.areas[solution.kind == CAVITY].sum() / grid.areas.sum()), "1"),
+        "cavitated_fraction": (
+            float(grid.areas[solution.kind == CAVITY].sum() / (problem.shape.film_fraction * grid.areas.sum())),
+            "1",
+        ),
         "theta_min": (float(density_ratio(solution).min()), "1"),
     }
     if not problem.shape.wide:
@@ -98,8 +109,18 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         }
         values |= {name: (value, unit) for name, (value, unit, _) in extensive.items()}
     values |= {f"{name}_per_width": (value / width, unit) for name, (value, _, unit) in extensive.items()}
+    values |= supply_values(scene, solution)
     if isinstance(scene.geometry, Journal):
         values["attitude_angle"] = (journal_load(scene.geometry, scene_positions(solution), force)[0], "deg")
+    elif isinstance(scene.geometry, Lobes):
+        values |= _of_shaft(scene.geometry, scene_positions(solution), force)
+        if any(scene.geometry.misalignment):
+            values |= shaft_moments(scene.geometry, scene_positions(solution), grid.y, force)
+        values["film_min_angle"] = (math.degrees(float(scene.geometry.angle(np.array(least.x)))), "deg")
+        if not scene.geometry.single:  # films of several lobes have no one beginning
+            values = {name: value for name, value in values.items() if name not in ("film_start", "rupture")}
+    elif isinstance(scene.geometry, Tilting):
+        values |= of_pad(scene.geometry, scene_positions(solution), grid.y, force)
     if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
         values["friction_coefficient"] = (resistance / load, "1")
         values |= {name: (number, "1") for name, number in numbers_of_load(scene, specific).items()}
@@ -108,7 +129,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
 
 def _torque(scene: Bearing, between: Array, rows: Array, grid: Grid) -> float | None:
     """The torque on a wall that turns, N m (N if infinitely wide); None of a wall that slides."""
-    if isinstance(scene.geometry, Journal):
+    if isinstance(scene.geometry, Shaft):
         return scene.geometry.radius * float(rows.sum() + between.sum())
     if scene.turning_radius is None:
         return None
@@ -120,32 +141,36 @@ def numbers_of_load(scene: Bearing, specific: float) -> dict[str, float]:
     geometry, radius, speed = scene.geometry, scene.turning_radius, abs(scene.motion.speed)
     frequency = speed / geometry.length if radius is None else speed / (2 * math.pi * radius)
     hersey = scene.lubricant.viscosity * frequency / specific
-    if not isinstance(geometry, Journal):
+    if not isinstance(geometry, Shaft):
         return {"hersey_number": hersey}
     return {"hersey_number": hersey, "sommerfeld_number": hersey * (geometry.radius / geometry.clearance) ** 2}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Flows:
-    """Flows at cavitation density, m³/s (m²/s if infinitely wide): inlet + displaced = outlet + low + high.
+    """Flows at cavitation density, m³/s (m²/s if infinitely wide).
+
+    What enters, inlet, supplies and displaced, equals what leaves, outlet + low + high.
 
     Attributes
     ----------
     inlet, outlet : flow in through the inlet and flow out through the outlet; None of joined pieces.
     low, high : flows out through the sides at the lowest and at the highest y; zero without open sides.
     displaced : flow -∫ θ ∂h/∂t dA that walls displace which approach each other; negative where they part.
+    supplied : whether lubricant is supplied inside of the film.
     """
 
     inlet: float | None
     outlet: float | None
     low: float
     high: float
+    supplied: bool = False
     displaced: float = 0.0
 
     @property
     def side_leakage(self) -> float:
-        """The net flow out through both sides; without an inlet what leaves through one side or both."""
-        if self.inlet is not None:
+        """The net flow out through both sides; without inlet and supplies what leaves through one side or both."""
+        if self.supplied or self.inlet is not None:
             return self.low + self.high
         return max(self.low, self.high) if self.displaced == 0 else max(self.low, 0.0) + max(self.high, 0.0)
 
@@ -162,33 +187,34 @@ def boundary_flows(solution: Solution) -> Flows:
     along, grid, open_sides = flow_along(solution), solution.grid, solution.problem.ends.sides is not None
     across = flow_across(solution) if open_sides else np.zeros((grid.x.size, 2))
     low, high = -float(across[:, 0].sum()), float(across[:, -2].sum())
-    stored = stored_flow(solution)
-    displaced = 0.0 - float(stored.sum())
-    if solution.network.periodic[0]:
-        if open_sides:
-            low, high = low - float(stored[:, 0].sum()), high - float(stored[:, -1].sum())
-        return Flows(inlet=None, outlet=None, low=low, high=high, displaced=displaced)
-    begins, ends = float(stored[0].sum()), float(stored[-1].sum())
-    if not open_sides:
-        return Flows(
-            inlet=float(along[0].sum()) + begins,
-            outlet=float(along[-2].sum()) - ends,
-            low=low,
-            high=high,
-            displaced=displaced,
-        )
+    stored, idle = stored_flow(solution), solution.problem.shape.idle
+    displaced, supplied = 0.0 - float(stored.sum()), bool(solution.problem.inflows)
+    if open_sides:
+        beside = stored if solution.network.periodic[0] else stored[1:-1]
+        low, high = low - float(beside[:, 0].sum()), high - float(beside[:, -1].sum())
+    if solution.network.periodic[0] and not idle:
+        return Flows(inlet=None, outlet=None, low=low, high=high, supplied=supplied, displaced=displaced)
     fill, couette, widths = solution.state.fill, solution.network.couette, grid.volume_y * grid.radius
-    for row, inner in ((0, 1), (-1, -2)):
+    for row, inner in ((0, 1), (-1, -2)) if open_sides else ():
         filled = along[:, row] + couette[:, row] * (fill[:, inner] - fill[:, row])
         along[:, row] = 0.75 * filled + 0.25 * along[:, inner] * widths[row] / widths[inner]
-    through_columns = across[[0, -1], -2] - across[[0, -1], 0]
-    passed = along[0] - along[-2]
-    beside = stored[1:-1]
+    if idle:
+        within = solution.problem.shape.is_idle(grid.x + grid.spacing_x / 2)
+        gap = within | np.roll(within, 1)
+        begins, ends = np.flatnonzero(gap & ~np.roll(gap, -1)), np.flatnonzero(~gap & np.roll(gap, -1))
+        low, high = -float(across[~gap, 0].sum()), float(across[~gap, -2].sum())
+        entering = leaving = 0.0
+    else:
+        begins, ends = np.array([0]), np.array([along.shape[0] - 2])
+        through = across[[0, -1], -2] - across[[0, -1], 0]
+        entering, leaving = float(stored[0].sum() + through[0]), -float(stored[-1].sum() + through[1])
+    passed = along[begins].sum(axis=0) - along[ends].sum(axis=0) if open_sides else np.zeros(1)
     return Flows(
-        inlet=float(along[0].sum() + through_columns[0]) + begins,
-        outlet=float(along[-2].sum() - through_columns[1]) - ends,
-        low=low + float(passed[0]) - float(beside[:, 0].sum()),
-        high=high + float(passed[-1]) - float(beside[:, -1].sum()),
+        inlet=float(along[begins].sum()) + entering,
+        outlet=float(along[ends].sum()) + leaving,
+        low=low + float(passed[0]),
+        high=high + float(passed[-1]),
+        supplied=supplied,
         displaced=displaced,
     )
 
@@ -261,14 +287,15 @@ def _ends(solution: Solution, row: int, last: int, x: Array) -> float:
 
 def nominal_area(scene: Bearing, grid: Grid) -> float:
     """The nominal area, m² (m if infinitely wide): the area of the film; of a journal bearing diameter times width."""
-    if isinstance(scene.geometry, Journal):
+    if isinstance(scene.geometry, Shaft):
         return 2 * scene.geometry.radius * (1.0 if grid.shape[1] == 1 else scene.geometry.width or 1.0)
     return float(grid.areas.sum())
 
 
 def scene_positions(solution: Solution) -> Array:
-    """The positions of the nodes in the direction of the scene's x, m, up to a constant (one turn of a journal)."""
-    return -solution.grid.x if solution.turned else solution.grid.x
+    """The positions of the nodes along the x of the scene, m."""
+    x, breaks = solution.grid.x, solution.problem.shape.breaks
+    return breaks[0] + breaks[-1] - x if solution.turned else x
 
 
 def load_of(scene: Bearing, x: Array, force: Array) -> float:
@@ -278,7 +305,42 @@ def load_of(scene: Bearing, x: Array, force: Array) -> float:
     """
     if isinstance(scene.geometry, Journal):
         return journal_load(scene.geometry, x, force)[1]
+    if isinstance(scene.geometry, Lobes):
+        return math.hypot(*shaft_force(scene.geometry, x, force))
     return float(force.sum())
+
+
+def shaft_force(geometry: Lobes, x: Array, force: Array) -> tuple[float, float]:
+    """The force along x and y on a shaft in lobes, N, by forces at the nodes, which push it away from the bore."""
+    angle = geometry.angle(x)[:, None]
+    return -float((force * np.cos(angle)).sum()), -float((force * np.sin(angle)).sum())
+
+
+def _of_shaft(geometry: Lobes, x: Array, force: Array) -> dict[str, tuple[float, str]]:
+    """The place of a shaft in lobes: its eccentricity, and the angle from the load it carries, in its rotation."""
+    along_x, along_y = geometry.eccentricity or (0.0, 0.0)
+    push_x, push_y = shaft_force(geometry, x, force)
+    values = {
+        "eccentricity": (math.hypot(along_x, along_y), "1"),
+        "eccentricity_x": (along_x, "1"),
+        "eccentricity_y": (along_y, "1"),
+    }
+    values |= {f"tilt_{pad + 1}": (tilt, "rad") for pad, tilt in enumerate(geometry.tilts or ())}
+    pushed = math.hypot(push_x, push_y) > ROUND_OFF * float(np.abs(force).sum())
+    if pushed and math.hypot(along_x, along_y):
+        turned = math.atan2(along_y, along_x) - math.atan2(-push_y, -push_x)
+        values["attitude_angle"] = (abs(math.degrees(math.remainder(turned, 2 * math.pi))), "deg")
+    return values
+
+
+def shaft_moments(geometry: Lobes, x: Array, y: Array, force: Array) -> dict[str, tuple[float, str]]:
+    """The moments on a shaft in lobes about the middle of its width, N m, by forces at the nodes.
+
+    With the force (F_x, F_y) at the distance ζ from the middle they are M_x = -Σ ζ F_y and M_y = Σ ζ F_x: they turn y
+    towards the axis, and the axis towards x.
+    """
+    push_x, push_y = shaft_force(geometry, x, force * (y - (geometry.width or 0.0) / 2))
+    return {"moment_x": (-push_y, "N*m"), "moment_y": (push_x, "N*m")}
 
 
 def journal_load(geometry: Journal, x: Array, force: Array) -> tuple[float, float]:

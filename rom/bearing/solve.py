@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -16,13 +16,17 @@ from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
 from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, converted, under_load
 from roughfilm.rom.bearing.film import Searched, smooth_films
+from roughfilm.rom.bearing.free.solve import closer, placed, solve_free
 from roughfilm.rom.bearing.geometry.journal import Journal
-from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Fields, Outputs
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
+from roughfilm.rom.bearing.quantities import EXACT, FILM_OUTPUTS, Fields, Outputs
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.supply.quantities import supply_warnings
 from roughfilm.rom.bearing.totals.reported import in_order
 from roughfilm.rom.bearing.totals.whole import whole_bearing
 from roughfilm.rom.bearing.uncertainty import POSITIONS, uncertainties
 from roughfilm.rom.bearing.warnings import (
+    pad_warnings,
     pressure_warnings,
     rupture_warnings,
     scene_warnings,
@@ -77,7 +81,21 @@ def solve(
         If the film or its load does not converge.
     """
     cells = request.resolution
-    if scene.load is None:
+    if isinstance(scene.geometry, MovingWall):
+        with one_time("start"):
+            load_loops(scene.wide)
+        among = searched(scene) if searched is not None and scene.load is not None else None
+        wall, cpu = time.perf_counter(), working_time()
+        found = _free(
+            scene,
+            request,
+            film if among is None else among.film,
+            outputs,
+            known_from=None if among is None else among.known_from,
+            ruptures=ruptures,
+            progress=progress,
+        )
+    elif scene.load is None:
         problem = film(scene)
         with one_time("start"):
             load_loops(problem.shape.wide)
@@ -93,13 +111,15 @@ def solve(
             films = partial(_films, among=among, ruptures=ruptures, tolerance=request.tolerance)
         found = _under_load(scene, cells, among, films, outputs, progress)
     solution, quantities = found.levels[0]
-    uncertainty = uncertainties(found.levels, found.of_factors, found.balance)
+    uncertainty = uncertainties(found.levels, found.of_factors, found.balance, exact=found.exact)
     warnings = [
         *grid_warnings(solution),
         *pressure_warnings(solution),
         *rupture_warnings(solution.state.pressure),
         *scene_warnings(scene, solution),
         *window_warnings(found.scene, solution),
+        *supply_warnings(found.scene, solution),
+        *pad_warnings(found.scene, solution),
     ]
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)
@@ -141,6 +161,7 @@ class _Found:
     solved : cells and iterations of all solves.
     balance : relative error of the load; None if the film was given.
     films : number of films that were solved.
+    exact : quantities that have no error of the grid.
     """
 
     scene: Bearing
@@ -149,6 +170,7 @@ class _Found:
     solved: tuple[Level, ...]
     balance: float | None = None
     films: int = 1
+    exact: Collection[str] = EXACT
 
 
 def _as_given(
@@ -164,6 +186,51 @@ def _as_given(
         levels=levels,
         of_factors=outputs.factor_uncertainties(scene, solution, levels[0][1]) if averaged else {},
         solved=solution.levels,
+    )
+
+
+def _free(
+    scene: Bearing,
+    request: CheckedRequest,
+    film: Callable[[Bearing], Problem],
+    outputs: Outputs,
+    *,
+    known_from: float | None,
+    ruptures: bool,
+    progress: Progress,
+) -> _Found:
+    """The film of a bearing whose wall moves freely."""
+    free = solve_free(
+        scene,
+        request.resolution,
+        film=film,
+        ruptures=ruptures,
+        tolerance=min(request.tolerance, FILM_RESIDUAL),
+        progress=progress,
+    )
+    scenes, solutions = free.scenes, free.solutions
+    levels = tuple((solution, outputs.quantities(at, solution)) for at, solution in zip(scenes, solutions, strict=True))
+    of_factors: Mapping[str, float] = {}
+    if solutions[0].problem.shape.roughness is not None:
+        compared = min(1, len(levels) - 1)
+        at, (solution, quantities) = scenes[compared], levels[compared]
+        known = at if known_from is None else at.moved(at.geometry.at_film(known_from))
+        of_factors = outputs.factor_uncertainties(known, solution, quantities)
+        if scene.load is not None:
+            step = FILM_STEP * at.geometry.thinnest
+            one = free.films[compared]
+            moved = closer(one, free.instants[compared], -step, tolerance=FILM_RESIDUAL)
+            others = outputs.quantities(placed(one, moved), one.solution(moved))
+            values, near = ({name: one.value for name, one in of.items()} for of in (quantities, others))
+            of_factors = converted(of_factors, values, near, step)
+    return _Found(
+        scene=scenes[0],
+        levels=levels,
+        of_factors=of_factors,
+        solved=free.solved,
+        balance=free.balance,
+        films=len(free.solved),
+        exact=EXACT if free.balance is None else (),
     )
 
 

@@ -1,7 +1,7 @@
 """The uncertainty of the quantities of a film, from coarser grids, the balance of its flows and the flow factors."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
@@ -30,6 +30,8 @@ def uncertainties(
     levels: Sequence[tuple[Solution, Mapping[str, Quantity]]],
     of_factors: Mapping[str, float],
     balance: float | None = None,
+    *,
+    exact: Collection[str] = EXACT,
 ) -> dict[str, float]:
     """The uncertainty of each quantity in its unit, infinite if unknown; empty without a coarser grid.
 
@@ -42,6 +44,7 @@ def uncertainties(
     levels : the film and its quantities, the finest grid first.
     of_factors : uncertainties that come from flow factors and contact pressures, by quantity.
     balance : relative error of the load for which the film was sought; None for a given film, whose thickness is exact.
+    exact : quantities that have no error of the grid.
     """
     if len(levels) == 1:
         return {}
@@ -53,7 +56,7 @@ def uncertainties(
     for name, quantity in quantities.items():
         known = {count: level[name].value for count, level in zip(cells, values, strict=True) if name in level}
         size = largest_flow if quantity.unit == FLOW_UNIT else abs(quantity.value)
-        if name in EXACT and not (name == LEAST_FILM and balance is not None):
+        if name in exact and not (name == LEAST_FILM and balance is not None):
             result[name] = 0.0
         elif name in unknown:
             result[name] = math.inf

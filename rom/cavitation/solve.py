@@ -14,10 +14,11 @@ from roughfilm.rom.cavitation.discretise import Ends, Faces, faces, network
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.network import Network, State
-from roughfilm.rom.cavitation.newton import UnsettledError, settle
+from roughfilm.rom.cavitation.newton import Settled, UnsettledError, settle
 from roughfilm.rom.cavitation.pressure_limit import at_constant_viscosity, pressure_limit, reduced_pressure
-from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.problem import Inflow, Problem
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
+from roughfilm.rom.cavitation.restricted import fed, first_pressures
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.homogenization.gap_factors import mirrored_factors
 from roughfilm.rom.lubricants.compressibility import Incompressible
@@ -52,6 +53,9 @@ NEAR_PRESSURE_LIMIT = 0.5
 
 NEGATIVE_FILL_TOLERANCE = 1e-6
 """Tolerated negative filling fraction (round-off)."""
+
+SUPPLIED_RESIDUAL = 1e-11
+"""Largest residual at which a film with inflows is solved, whose flows are sums over many nodes."""
 
 WARM_UP_CELLS = 40
 """Number of cells of a film on which every compiled loop runs once."""
@@ -250,13 +254,33 @@ def on_grid(
         storage=storage,
         ruptures=ruptures,
     )
-    state = start or State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
     if problem.shape.wide:  # each step is slow to import
         from roughfilm.rom.cavitation.line import line_step as step
     else:
         from roughfilm.rom.cavitation.plane import plane_step as step
+    first = start or State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
+
+    def settled_from(near: State | None) -> Settled:
+        count = sweeps if near is None else min(sweeps, WARM_SWEEPS_OF_LINE if problem.shape.wide else WARM_SWEEPS)
+        return settle(net, problem, near or first, step, sweeps=count, tolerance=tolerance, ruptures=ruptures)
+
+    x, y = np.meshgrid(nodes.x, nodes.y, indexing="ij")
+    covered = tuple(inflow.covers(x, y) for inflow in problem.inflows)
+    if covered:
+        tolerance = min(tolerance, SUPPLIED_RESIDUAL)
+    pressures = first_pressures(problem.inflows, covered, start)
     with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
-        settled = settle(net, problem, state, step, sweeps=sweeps, tolerance=tolerance, ruptures=ruptures)
+        settled = fed(
+            net,
+            problem,
+            problem.inflows,
+            covered,
+            settled_from,
+            step,
+            pressures,
+            tolerance=tolerance,
+            ruptures=ruptures,
+        )
     load = float((nodes.areas * settled.state.pressure).sum())
     return Solution(
         problem=problem,
@@ -291,12 +315,19 @@ def mirrored(problem: Problem) -> Problem:
     turned = replace(
         shape,
         breaks=breaks,
+        idle=tuple((low + high - end, low + high - begin) for begin, end in reversed(shape.idle)),
         thickness=lambda x, y: shape.thickness(low + high - x, y),
         roughness=None if shape.roughness is None else mirrored_factors(shape.roughness),
     )
     opening = problem.opening
     back = None if opening is None else lambda x, y: opening(low + high - x, y)
-    return replace(problem, shape=turned, speed=-problem.speed, opening=back)
+    inflows = tuple(mirrored_inflow(inflow, low + high) for inflow in problem.inflows)
+    return replace(problem, shape=turned, speed=-problem.speed, opening=back, inflows=inflows)
+
+
+def mirrored_inflow(inflow: Inflow, ends: float) -> Inflow:
+    """An inflow mirrored in x between two ends with the given sum of their positions, m."""
+    return replace(inflow, covers=lambda x, y: inflow.covers(ends - x, y))
 
 
 @cache

@@ -5,6 +5,9 @@ from dataclasses import dataclass
 
 from roughfilm.contact.foundation.errors import InputError
 
+SMALL_FALL = 1e-2
+"""Fall of the film over the film at the outlet below which a series gives the centre of pressure."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class SliderSolution:
@@ -46,6 +49,37 @@ def linear_slider(*, film: float, rise: float, length: float, speed: float, visc
         pressure_max=3 * viscosity * speed * length / film**2 * fall / (2 * ratio * (ratio + 1)),
         friction=viscosity * speed * length / rise * (4 * logarithm - 6 * fraction),
     )
+
+
+def centre_of_pressure(ratio: float) -> float:
+    """The distance of the centre of pressure of an infinitely wide flat pad from its inlet, over the length.
+
+    A pad that tilts freely takes the ratio a of its films at the inlet and the outlet at which its pivot is there:
+
+        x/L = ((a² + 2a) ln a - (a - 1) (5a + 1)/2)/((a² - 1) ln a - 2 (a - 1)²),
+
+    which grows from 1/2 at a = 1 to 1.
+
+    Parameters
+    ----------
+    ratio : film thickness at the inlet over that at the outlet, above 1.
+
+    Raises
+    ------
+    InputError
+        If the film does not narrow.
+
+    Source: Raimondi and Boyd 1955, Transactions of the ASME 77, 321-330; Michell 1905, Zeitschrift für Mathematik und
+    Physik 52, 123-137.
+    """
+    if ratio <= 1:
+        raise InputError(f"ratio: got {ratio!r}; it must be above 1")
+    fall = ratio - 1
+    if fall < SMALL_FALL:  # the terms of the formula cancel
+        return 0.5 + fall / 10 - fall**2 / 20 + 11 * fall**3 / 350
+    logarithm = math.log1p(fall)
+    moment = ratio * (ratio + 2) * logarithm - fall * (5 * ratio + 1) / 2
+    return moment / ((ratio + 1) * fall * logarithm - 2 * fall**2)
 
 
 def rayleigh_step(

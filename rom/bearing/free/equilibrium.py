@@ -6,10 +6,14 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
+from roughfilm.rom.bearing.free.closed import closed
 from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.geometry.journal import Shaft
+from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
 from roughfilm.rom.cavitation.motion.march import held
+from roughfilm.rom.cavitation.problem import unchanging
 
 FIRST_STEP = 0.2
 """First time step over the time in which the shaft turns by a radian."""
@@ -24,10 +28,15 @@ MAX_STEPS = 200
 """Largest number of time steps."""
 
 HOLDING = 1e-9
-"""Stiffness that holds pads without pressure, over the load per clearance."""
+"""Stiffness that holds a shaft and pads that no pressure moves, over the load per clearance."""
 
-CLOSEST = 1e-4
-"""Least film over the clearance below which no equilibrium is sought."""
+
+FARTHEST = 100.0
+"""Distance of the shaft from the middle of its bore over the clearance beyond which no equilibrium is sought."""
+
+
+UNRESISTED = 1e-9
+"""Force of the film over the load below which it does not resist the load."""
 
 
 def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load: Array | None = None) -> Instant:
@@ -45,26 +54,47 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     Raises
     ------
     InputError
-        If the film becomes thinner than ``CLOSEST`` times the clearance.
+        If nothing supplies the film, it closes, or the shaft leaves its bore.
     ConvergenceError
         If the motion does not settle.
     """
     solved = film.solved
+    sides = solved.problem.ends.sides
+    if solved.problem.shape.joined[0] and not solved.inflows and sides is not None and max(sides) <= 0:
+        raise InputError(
+            "boundary.sides: got the cavitation pressure at both sides of a bore without grooves, which then has no "
+            "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
+        )
     force = film.load if load is None else load
-    count = force.size
-    free, held_by = np.ones(count, dtype=bool), _holding(film, force)
+    free, held_by = film.free, holding(film, force)
     if start is not None:
         drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free)
         try:
             return settled(solved, start, drive, tolerance=tolerance)
         except ConvergenceError:
             pass
-    instant = film.first(film.wall.place) if start is None else start
+    if start is None:
+        start = film.first(film.wall.place)
+        constant = unchanging(solved.problem)
+        if constant != solved.problem and free.any():
+            simple = replace(film, solved=replace(solved, problem=constant))
+            start = _settling(simple, start, force, held_by, tolerance)
+    return _settling(film, start, force, held_by, tolerance)
+
+
+def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tolerance: float) -> Instant:
+    """The end of the motion without mass from a film."""
+    solved, free, count = film.solved, film.free, force.size
     given = Drive(
-        speed=solved.problem.speed, force=force, stiffness=np.zeros((count, count)), free=np.zeros(count, dtype=bool)
+        speed=solved.problem.speed,
+        force=force,
+        stiffness=np.zeros((count, count)),
+        free=np.zeros(count, dtype=bool),
     )
-    instant = settled(solved, instant, given, tolerance=tolerance)
-    time = 1 / _rate(film)
+    instant = settled(solved, start, given, tolerance=tolerance)
+    if not free.any():
+        return instant
+    time, shaft = 1 / _rate(film), isinstance(film.scene.geometry, Shaft)
     step = FIRST_STEP * time
     for _ in range(MAX_STEPS):
         last = step >= LAST_STEP * time
@@ -77,19 +107,32 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
             if step < 1e-6 * time:
                 break
             continue
+        if (reason := closed(film, instant, force)) is not None:
+            raise reason
         if last:
             return instant
-        least = float(instant.faces.thickness.min())
-        if least < CLOSEST * film.wall.unit[0]:
-            raise InputError(
-                f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; lower the load, or "
-                "raise the speed or the viscosity"
-            )
+        if (
+            isinstance(film.scene.geometry, Shaft)
+            and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]
+        ):
+            raise _leaves(force)
         step *= GROWTH
+    unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
+    if shaft and unresisted:
+        raise _leaves(force)
+    other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
     raise ConvergenceError(
-        "load: the motion towards the equilibrium does not settle; take more cells, or another load",
+        f"load: the motion towards the equilibrium does not settle; take more cells, or {other}",
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
+    )
+
+
+def _leaves(force: Array) -> InputError:
+    toward = np.degrees(np.arctan2(force[1], force[0]))
+    return InputError(
+        f"load: got {np.hypot(*force[:2]):.6g} N towards {toward:.4g} degrees from the x axis; no film resists it, and "
+        "the shaft leaves its bore; turn the load or the bore, or take a longer arc"
     )
 
 
@@ -99,11 +142,17 @@ def _rate(film: FreeFilm) -> float:
     return max(abs(scene.motion.speed) / scene.geometry.length * 2 * np.pi, 1e-6)
 
 
-def _holding(film: FreeFilm, force: Array) -> Array:
-    """The stiffness that holds pads without pressure at their place, shape (coordinates, coordinates)."""
+def holding(film: FreeFilm, force: Array) -> Array:
+    """The stiffness that holds a shaft and its pads where no pressure moves them, shape (coordinates, coordinates).
+
+    A pad without pressure has no moment at any tilt, and a shaft on a single pad that tilts no force across it. With
+    the stiffness such a pad rests at the least tilt at which its film carries nothing, and the shaft nearest to the
+    middle. A pad of a thrust bearing always carries its load, and has none.
+    """
     unit = film.wall.unit
-    stiff = np.where(film.wall.turns, HOLDING * np.abs(force).max() * unit[0] / unit**2, 0.0)
-    return np.diag(stiff)
+    if not isinstance(film.scene.geometry, Shaft):
+        return np.zeros((unit.size, unit.size))
+    return np.diag(HOLDING * np.abs(force).max() * unit[0] / unit**2)
 
 
 def refined(coarse: FreeFilm, instant: Instant, fine: FreeFilm) -> Instant:

@@ -13,12 +13,15 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Angle, InUnit, plain_number
 from roughfilm.rom.bearing.geometry.journal import Ratio, Shaft
 from roughfilm.rom.bearing.geometry.pad import known_film
-from roughfilm.rom.bearing.geometry.rigid import RigidWall
+from roughfilm.rom.bearing.geometry.rigid import MovingWall, RigidWall
 from roughfilm.rom.bearing.geometry.ring import FITTING, Fraction
 from roughfilm.rom.cavitation.shape import Shape
 
 SAMPLES = 721
 """Number of angles at which the least film of a lobe is sought."""
+
+JOINT = 1e-11
+"""Distance of these angles from the ends of the lobe, rad."""
 
 DOWN = -math.pi / 2
 """The direction of a load that points downwards, rad."""
@@ -27,7 +30,7 @@ Arc = Annotated[float, InUnit("rad")]
 Signed = Annotated[float, BeforeValidator(plain_number)]
 
 
-class Lobes(Shaft):
+class Lobes(Shaft, MovingWall):
     """A shaft in a bore of equal arcs, in coordinates that are fixed to the bore.
 
     Angles θ count from the x axis towards the y axis, as the shaft turns at a positive speed; y points upwards, and x
@@ -124,11 +127,27 @@ class Lobes(Shaft):
     @property
     def least_film(self) -> float:
         """The least film thickness at the eccentricity, m; negative where the shaft reaches into the bore."""
-        x = np.concatenate(
-            [self.radius * (self.begins(lobe) + np.linspace(0, self.turn, SAMPLES)) for lobe in range(self.lobes)]
+        return float(min(self.thickness(x, y).min() for x, y in self._samples()))
+
+    def least_films(self, eccentricity: Array) -> Array:
+        """The least film thickness, m, at positions of the shaft over the clearance, shape (2, n), without tilts."""
+        along, up = self.clearance * eccentricity[..., None]
+        return np.asarray(
+            np.min(
+                [
+                    (self.bore(x, y) - along * np.cos(self.angle(x)) - up * np.sin(self.angle(x))).min(axis=-1)
+                    for x, y in self._samples()
+                ],
+                axis=0,
+            )
         )
-        sides = [0.0] if self.width is None else [0.0, self.width]
-        return float(min(self.thickness(x * (1 - 1e-12), np.full_like(x, side)).min() for side in sides))
+
+    def _samples(self) -> Iterator[tuple[Array, Array]]:
+        """Positions on both sides at which the least film is sought."""
+        inside = np.linspace(JOINT, self.turn - JOINT, SAMPLES)
+        x = self.radius * np.concatenate([self.begins(lobe) + inside for lobe in range(self.lobes)])
+        for side in [0.0] if self.width is None else [0.0, self.width]:
+            yield x, np.full_like(x, side)
 
     def at_film(self, film: float) -> Self:
         """The bearing with its shaft moved along its eccentricity, or down, to another least film thickness, m."""
@@ -149,14 +168,14 @@ class Lobes(Shaft):
         """The angle θ at positions x, rad."""
         return np.asarray(self.start + x / self.radius)
 
-    def _lobe(self, x: Array) -> Array:
-        """The number of the lobe at positions x; that before a gap inside it."""
+    def lobe(self, x: Array) -> Array:
+        """The number from 0 of the lobe at positions x; that before a gap inside it."""
         turned = np.mod(x / self.radius, 2 * math.pi) if not self.single else x / self.radius
         return np.asarray(np.clip(np.floor(turned * self.lobes / (2 * math.pi) + 1e-12), 0, self.lobes - 1))
 
     def _from(self, x: Array, position: float) -> Array:
         """The angle from the given position, 0 to 1, along the lobe at positions x, rad."""
-        return np.asarray(self.angle(x) - self.start - self._lobe(x) * 2 * math.pi / self.lobes - position * self.turn)
+        return np.asarray(self.angle(x) - self.start - self.lobe(x) * 2 * math.pi / self.lobes - position * self.turn)
 
     def bore(self, x: Array, y: Array) -> Array:
         """The film thickness of a centred shaft with its misalignment, m."""
@@ -177,7 +196,7 @@ class Lobes(Shaft):
         pads = 0 if self.pivot is None else self.lobes
 
         def tilted(lobe: int, x: Array, y: Array) -> Array:
-            inside = self._lobe(x) == lobe
+            inside = self.lobe(x) == lobe
             return np.where(inside, -self.radius * np.sin(self._from(x, self.pivot or 0.0)), 0.0) + 0 * y
 
         known = np.array(self.eccentricity or (0.0, 0.0)) * self.clearance
@@ -201,6 +220,11 @@ class Lobes(Shaft):
         )
 
     @property
+    def tilted(self) -> bool:
+        """Whether the tilts of the pads are given."""
+        return self.tilts is not None
+
+    @property
     def symmetric(self) -> bool:
         """Whether the film is symmetric about the middle of its width."""
         return not any(self.misalignment)
@@ -222,4 +246,5 @@ class Lobes(Shaft):
             across=(0.0, self.length if self.width is None else self.width),
             wide=self.width is None,
             joined=(not self.single, False),
+            idle=tuple(self.gaps()),
         )

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.bearing.scene import Bearing
@@ -23,9 +24,12 @@ def applies(scene: Bearing) -> Applicability:
     width = scene.geometry.width
     if width is None:
         return Applicability(applies=False, reason="the bearing is infinitely wide; use reynolds_cavitating")
-    if isinstance(scene.geometry, Ring) and scene.geometry.endless:
+    if scene.supply:
+        return Applicability(applies=False, reason="supplies end before the sides, which one line lacks")
+    geometry = scene.geometry
+    if (isinstance(geometry, Ring) and geometry.endless) or (isinstance(geometry, Lobes) and geometry.joined):
         return Applicability(
-            applies=False, reason="joined pads are fed through their sides, which one line does not have"
+            applies=False, reason="joined pads and lobes are fed through their sides, which one line does not have"
         )
     texture = getattr(scene.geometry, "texture", None)
     if texture is not None and texture.width is not None:

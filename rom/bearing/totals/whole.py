@@ -17,6 +17,7 @@ ADDED = (
     "outlet_flow",
     "displaced_flow",
     "side_leakage",
+    "supply_flow",
     "contact_load",
     "film_load",
 )

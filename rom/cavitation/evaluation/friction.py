@@ -11,7 +11,11 @@ from roughfilm.rom.cavitation.evaluation.filling import carried
 from roughfilm.rom.cavitation.evaluation.flows import flow_along
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.oblique import wetness
+from roughfilm.rom.cavitation.problem import Inflow
 from roughfilm.rom.cavitation.solve import Solution
+
+RECESS_FRICTION = 4.0
+"""Friction of a closed recess over ηu/(h + d): a pressure gradient drives back what the sliding wall carries along."""
 
 
 def friction(solution: Solution) -> float:
@@ -35,10 +39,15 @@ class Drag:
     between: Array
 
 
-def drag_of_rows(solution: Solution) -> Drag:
-    """The friction of the liquid, row by row."""
+def drag_of_rows(solution: Solution, *, halved: bool = False) -> Drag:
+    """The friction of the liquid, row by row.
+
+    Parameters
+    ----------
+    halved : whether the lowest row is the middle of a symmetric film, whose other half is not counted.
+    """
     grid, rough = solution.grid, solution.faces.averaged
-    along = (grid.volume_y * _pull(solution)).sum(axis=0)
+    along = (grid.volume_y * _pull(solution, halved=halved)).sum(axis=0)
     if rough is None or grid.shape[1] == 1:
         return Drag(rows=along, between=np.zeros(grid.shape[1] - 1))
     climb = solution.state.pressure[:, 1:] - solution.state.pressure[:, :-1]
@@ -52,7 +61,7 @@ def wall_stress(solution: Solution) -> Array:
     return np.divide(pull, lengths, out=np.zeros_like(pull), where=lengths > 0)
 
 
-def _pull(solution: Solution) -> Array:
+def _pull(solution: Solution, *, halved: bool = False) -> Array:
     """The force per width on the sliding wall between the nodes of each face towards i + 1, N/m, shape (nx, ny)."""
     grid, mean, problem = solution.grid, solution.faces.mean, solution.problem
     fluidity = problem.piezoviscosity.fluidity(solution.state.pressure, problem.viscosity)[0]
@@ -60,14 +69,38 @@ def _pull(solution: Solution) -> Array:
     speed = problem.speed * (grid.radius if problem.shape.polar else 1.0)
     fill = carried(solution)
     if problem.ends.sides is not None:  # the outermost lines belong to the bath
-        fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
+        inner = fill[:, :-1] if halved else fill[:, 1:-1]
+        fill = np.pad(inner, ((0, 0), (0 if halved else 1, 1)), mode="edge")
     rough = solution.faces.averaged
     with np.errstate(divide="ignore", invalid="ignore"):
         gradient = fill / mean if rough is None else _shear_factor(solution, rough, fill)
         shear = np.where(mean > 0, problem.viscosity * speed * gradient, 0.0)
-    shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
+    thicker = (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
     rise = np.roll(solution.state.pressure, -1, axis=0) - solution.state.pressure
-    return np.asarray(shear * stretch + mean / 2 * rise)
+    pull = np.asarray(shear * thicker * stretch + mean / 2 * rise)
+    for inflow in problem.inflows:
+        share = _share_inside(solution, inflow)
+        recess = RECESS_FRICTION * problem.viscosity * speed * thicker / (solution.faces.thickness + inflow.depth)
+        pull += share * (recess * stretch - pull)
+    if problem.shape.idle:
+        pull[problem.shape.is_idle(grid.x + grid.spacing_x / 2)] = 0.0
+    return pull
+
+
+def _share_inside(solution: Solution, inflow: Inflow) -> Array:
+    """The part of the width of each face towards i + 1 that lies in an inflow, shape (nx, ny)."""
+    grid, net = solution.grid, solution.network
+    covered = inflow.covers(*np.meshgrid(grid.x, grid.y, indexing="ij"))
+    cells = covered & np.roll(covered, -1, axis=0)
+    if not net.periodic[0]:
+        cells[-1] = False
+    if grid.shape[1] == 1:
+        return cells.astype(float)
+    cells = cells & np.roll(cells, -1, axis=1)
+    if not net.periodic[1]:
+        cells[:, -1] = False
+    halves = cells * grid.spacing_y / 2
+    return np.asarray((halves + np.roll(halves, 1, axis=1)) / grid.volume_y)
 
 
 def _shear_factor(solution: Solution, rough: Averaged, fill: Array) -> Array:

@@ -1,0 +1,144 @@
+"""The steady film of a bearing whose wall moves freely, on successively finer grids."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
+from roughfilm.rom.bearing.free.film import FreeFilm, free_film
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.motion.coefficients import coefficients
+from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
+from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.solve import Level, Solution, coarsening
+from roughfilm.rom.ladder.model import Progress, silent
+
+GRIDS = 4
+"""Largest number of grids, the coarser ones for the uncertainty."""
+
+MIN_CELLS = 24
+"""Smallest number of cells along the film of a coarser grid."""
+
+ACROSS = 2
+"""Cells along the film over those across it."""
+
+COARSE_CELLS = 48
+"""Number of cells along the film on which the expected film is sought."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FreeSolution:
+    """The steady film of a bearing on several grids.
+
+    Attributes
+    ----------
+    films : the film on each grid, the finest first.
+    instants : the film at its place on each grid.
+    solved : cells and iterations of all solves.
+    """
+
+    films: tuple[FreeFilm, ...]
+    instants: tuple[Instant, ...]
+    solved: tuple[Level, ...]
+
+    @property
+    def scenes(self) -> tuple[Bearing, ...]:
+        """The scene with its wall where it is on each grid."""
+        return tuple(placed(film, instant) for film, instant in zip(self.films, self.instants, strict=True))
+
+    @property
+    def solutions(self) -> tuple[Solution, ...]:
+        """The film over the whole width on each grid."""
+        return tuple(film.solution(instant) for film, instant in zip(self.films, self.instants, strict=True))
+
+    @property
+    def balance(self) -> float | None:
+        """The relative net force on the wall on the finest grid; None where no coordinate is free."""
+        return self.instants[0].force_residual if self.films[0].free.any() else None
+
+
+def placed(film: FreeFilm, instant: Instant) -> Bearing:
+    """The scene with its wall at the coordinates of an instant."""
+    assert isinstance(film.scene.geometry, MovingWall)
+    return film.scene.moved(film.scene.geometry.at(instant.place))
+
+
+def sizes(cells: int) -> list[tuple[int, int]]:
+    """Cells along and across the film from the coarsest to the finest grid."""
+    along = [size for size, _ in coarsening((cells, 1), wide=True)][-GRIDS:]
+    return [(size, max(2, round(size / ACROSS))) for size in along if size >= MIN_CELLS or size == cells]
+
+
+def solve_free(
+    scene: Bearing,
+    cells: int,
+    *,
+    film: Callable[[Bearing], Problem] = Bearing.problem,
+    ruptures: bool = True,
+    tolerance: float,
+    progress: Progress = silent,
+) -> FreeSolution:
+    """Solve for the place of the wall at which the film carries the load of the scene, or the film at a given place.
+
+    Grids that are too coarse for an equilibrium are left out. Quantities are second-order accurate in the cell size.
+
+    Parameters
+    ----------
+    cells : number of cells along the film of the finest grid; across it there are half as many.
+    film : film(scene), the problem that the model solves.
+    ruptures : whether the film cavitates.
+    tolerance : residual at which a film is solved.
+
+    Raises
+    ------
+    InputError
+        If no film carries the load.
+    ConvergenceError
+        If the film or its equilibrium does not converge.
+    """
+    counts = sizes(cells)
+    work = [float(nx) ** 2 for nx, _ in counts]
+    films: list[FreeFilm] = []
+    instants: list[Instant] = []
+    solved: list[Level] = []
+    for number, count in enumerate(counts):
+        progress(sum(work[:number]) / sum(work), f"{count[0]} × {count[1]} cells")
+        one = free_film(scene, count, film=film, ruptures=ruptures)
+        start = refined(films[-1], instants[-1], one) if films else None
+        try:
+            instant = equilibrium(one, start, tolerance=tolerance)
+        except (InputError, ConvergenceError):
+            if count == counts[-1]:
+                raise
+            films.clear()
+            instants.clear()
+            continue
+        films.append(one)
+        instants.append(instant)
+        load = float((one.solved.grid.areas * instant.state.pressure).sum()) * one.solved.sides
+        solved.append(Level(shape=one.whole.grid.shape, iterations=instant.iterations, load=load))
+    return FreeSolution(films=tuple(films[::-1]), instants=tuple(instants[::-1]), solved=tuple(solved))
+
+
+def closer(film: FreeFilm, instant: Instant, step: float, *, tolerance: float) -> Instant:
+    """The film whose wall has moved by ``step``, m, in the direction in which a growing load moves it."""
+    stiffness = coefficients(film.solved, instant, speed=film.solved.problem.speed).stiffness
+    count = instant.place.size
+    moved = np.linalg.lstsq(stiffness, -film.solved.force(instant.state.pressure), rcond=None)[0]
+    moved *= step / float(np.abs(film.solved.at_nodes @ moved).max())
+    drive = Drive(
+        speed=film.solved.problem.speed,
+        force=np.zeros(count),
+        stiffness=np.zeros((count, count)),
+        free=np.zeros(count, dtype=bool),
+    )
+    return settled(film.solved, replace(instant, place=instant.place + moved), drive, tolerance=tolerance)
+
+
+def expected_place(scene: Bearing) -> tuple[float, ...]:
+    """The coordinates of the wall under the load of a scene, on a coarse grid and with smooth walls."""
+    film = free_film(scene, (COARSE_CELLS, COARSE_CELLS // ACROSS))
+    return tuple(float(value) for value in equilibrium(film, None, tolerance=1e-8).place)

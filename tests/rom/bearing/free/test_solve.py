@@ -1,0 +1,120 @@
+"""Shafts in lobes under a load: published static points, symmetry, limits, and conservation."""
+
+import numpy as np
+import pytest
+
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.request import Request
+from roughfilm.rom.ladder.scene import read_scene
+
+OIL, SPEED = {"viscosity": "20 mPa*s"}, {"speed": "3000 rpm"}
+SIDES = {"sides": {"low": "1 bar", "high": "1 bar"}}
+BORE = {"shape": "lobes", "radius": "50 mm", "clearance": "50 um", "width": "50 mm"}
+GROOVED = BORE | {"lobes": 2, "arc": "160 deg"}
+
+
+def solved(geometry, *, cells=64, model="reynolds_cavitating", **tables):
+    tables = {"lubricant": OIL, "motion": SPEED, "load": {"force": "5 kN"}} | tables
+    tables = {name: table for name, table in tables.items() if table is not None}
+    scene = read_scene({"name": "lobes", "kind": "bearing", "geometry": geometry, **tables})
+    return find("bearing", model).solve(scene, Request(resolution=cells))
+
+
+def close(one, other, *names, factor=1.0):
+    for name in names:
+        bar = one[name].uncertainty + other[name].uncertainty
+        assert abs(one[name].value - factor * other[name].value) <= bar + 1e-9 * abs(one[name].value), name
+
+
+@pytest.mark.parametrize(
+    ("preload", "number", "eccentricity", "attitude"),
+    [(0.0, 0.991, 0.15, 70.58), (0.0, 0.235, 0.46, 49.27), (0.0, 0.108, 0.65, 39.72), (0.5, 0.12, 0.35, 81.8)],
+)
+def test_static_points_are_those_of_lund_and_thomsen(preload, number, eccentricity, attitude):
+    """Bores with two axial grooves, L/D = 1 (ASME 1978, as in the literature tests of ROSS)."""
+    force = 0.02 * 50 * 0.1 * 0.1 * 1e6 / number
+    result = solved(GROOVED | {"width": "100 mm", "preload": preload}, load={"force": f"{force!r} N"}, cells=72)
+    assert result["eccentricity"].value == pytest.approx(eccentricity, abs=2e-3)
+    assert result["attitude_angle"].value == pytest.approx(attitude, abs=0.3)
+
+
+def test_a_given_eccentricity_and_the_load_that_it_carries_are_the_same_film():
+    loaded = solved(GROOVED)
+    place = [loaded["eccentricity_x"].value, loaded["eccentricity_y"].value]
+    scene = {"name": "lobes", "kind": "bearing", "geometry": GROOVED | {"eccentricity": place}}
+    given = find("bearing", "reynolds_cavitating").solve(
+        read_scene({**scene, "lubricant": OIL, "motion": SPEED}), Request(resolution=64)
+    )
+    for name in ("load", "film_min", "friction", "pressure_max", "side_leakage", "inlet_flow"):
+        assert given[name].value == pytest.approx(loaded[name].value, rel=1e-6), name
+
+
+def test_the_load_turns_the_shaft_with_it_in_a_full_bore():
+    down = solved(BORE, boundary=SIDES)
+    aside = solved(BORE, boundary=SIDES, load={"force": "5 kN", "angle": "17 deg"})
+    close(down, aside, "eccentricity", "friction", "pressure_max", "film_min")
+    assert aside["attitude_angle"].value == pytest.approx(down["attitude_angle"].value, abs=0.2)
+
+
+def test_a_shaft_that_turns_back_is_the_mirror_image():
+    forth, back = solved(GROOVED), solved(GROOVED, motion={"speed": "-3000 rpm"})
+    for name in ("load", "film_min", "friction", "pressure_max", "side_leakage", "eccentricity_y"):
+        assert back[name].value == pytest.approx(forth[name].value, rel=1e-7), name
+    assert back["eccentricity_x"].value == pytest.approx(-forth["eccentricity_x"].value, rel=1e-7)
+
+
+@pytest.mark.parametrize("pads", [{}, {"pivot": 0.5, "tilts": ["0.2 mrad", "0.1 mrad"]}])
+def test_a_given_shaft_that_turns_back_is_the_mirror_image(pads):
+    """Mirrored in the vertical plane, in which the second pad, above, and the first one, below, are their own images."""
+    tables = {"cells": 32, "load": None}
+    forth = solved(GROOVED | pads | {"eccentricity": [0.3, -0.4]}, **tables)
+    turned = {"tilts": ["-0.2 mrad", "-0.1 mrad"]} if pads else {}
+    back = solved(GROOVED | pads | turned | {"eccentricity": [-0.3, -0.4]}, motion={"speed": "-3000 rpm"}, **tables)
+    for name in ("load", "film_min", "friction", "pressure_max", "side_leakage", "attitude_angle"):
+        assert back[name].value == pytest.approx(forth[name].value, rel=1e-7), name
+
+
+def test_what_enters_from_the_gaps_leaves_into_them_or_through_the_sides():
+    result = solved(GROOVED)
+    flows = {name: result[name].value for name in ("inlet_flow", "outlet_flow", "side_leakage")}
+    assert flows["inlet_flow"] == pytest.approx(flows["outlet_flow"] + flows["side_leakage"], rel=1e-9)
+    assert flows["side_leakage"] > 0
+    finer = solved(GROOVED, cells=128)
+    close(result, finer, *flows)
+
+
+def test_the_uncertainties_cover_a_finer_film():
+    coarse, fine = solved(GROOVED | {"preload": 0.3}), solved(GROOVED | {"preload": 0.3}, cells=192)
+    names = [name for name, one in coarse.quantities.items() if np.isfinite(one.uncertainty or np.inf)]
+    outside = [
+        name
+        for name in names
+        if abs(coarse[name].value - fine[name].value) > coarse[name].uncertainty + 1e-7 * abs(fine[name].value)
+    ]
+    assert len(names) > 15
+    assert len(outside) <= 1, outside
+
+
+def test_a_misaligned_film_is_solved_over_the_whole_width():
+    level = solved(GROOVED)
+    tilted = solved(GROOVED | {"misalignment": ["0.2 mrad", "-0.1 mrad"]})
+    assert tilted["film_min"].value < level["film_min"].value
+    one, other = tilted["side_leakage_low"].value, tilted["side_leakage_high"].value
+    assert abs(one - other) > 0.01 * abs(one)
+    assert level["side_leakage_low"].value == pytest.approx(level["side_leakage_high"].value, rel=1e-9)
+
+
+def test_a_partial_arc_is_one_film_with_an_inlet_and_an_outlet():
+    result = solved(BORE | {"arc": "150 deg"})
+    assert 0 < result["rupture"].value <= 1
+    assert result["inlet_flow"].value == pytest.approx(
+        result["outlet_flow"].value + result["side_leakage"].value, rel=1e-9
+    )
+
+
+def test_an_infinitely_wide_bore_has_the_load_per_width():
+    wide = {name: value for name, value in GROOVED.items() if name != "width"}
+    result = solved(wide, cells=256, load={"force_per_width": "200 kN/m"})
+    assert result["load_per_width"].value == pytest.approx(2e5, rel=1e-8)
+    line = solved(GROOVED | {"width": "5 m"}, cells=64, model="infinitely_wide", load={"force": "1 MN"})
+    close(line, result, "film_min", "attitude_angle")
