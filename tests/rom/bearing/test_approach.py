@@ -22,6 +22,8 @@ PAD = {"shape": "linear", "length": "20 mm", "width": "30 mm", "film": "10 um", 
 LINE = {name: entry for name, entry in PAD.items() if name != "width"}
 PARABOLA = PAD | {"shape": "parabolic"}
 JOURNAL = {"shape": "journal", "radius": "10 mm", "clearance": "20 um", "eccentricity": 0.6, "width": "20 mm"}
+LOBES = {"shape": "lobes", "lobes": 2, "arc": "150 deg", "width": "20 mm", "eccentricity": [0, 0]}
+LOBES |= {"radius": "10 mm", "clearance": "20 um"}
 RADII = {"film": "10 um", "inner_radius": "20 mm", "outer_radius": "40 mm"}
 SECTOR = RADII | {"shape": "sector", "rise": "20 um", "angle": "30 deg"}
 WASHER = RADII | {"shape": "washer", "pockets": 12, "pocket": {"depth": "5 um", "share": 0.5, "extent": "8 mm"}}
@@ -115,6 +117,25 @@ def test_what_enters_and_what_is_displaced_leaves(name: str) -> None:
     assert "motion.approach" in kind_of(result).remarks(result.provenance["scene"], result.quantities)[0]
 
 
+def test_what_a_recess_gives_and_what_is_displaced_leaves() -> None:
+    plates = {"shape": "parallel", "length": "40 mm", "width": "30 mm", "film": "30 um"}
+    recess = {
+        "kind": "pocket",
+        "x": "20 mm",
+        "length": "10 mm",
+        "extent": "10 mm",
+        "depth": "1 mm",
+        "pressure": "1 MPa",
+    }
+    result = solve(plates, 0.0, 1e-4, supply=[recess])
+    gains = result["displaced_flow"].value + result["supply_1_flow"].value
+    leaves = result["outlet_flow"].value - result["inlet_flow"].value + result["side_leakage"].value
+    assert leaves == pytest.approx(gains, rel=1e-9)
+    assert result["displaced_flow"].value == pytest.approx(0.04 * 0.03 * 1e-4, rel=1e-9)
+    still = solve(plates, 0.0, 0.0, supply=[recess])
+    assert still["supply_1_flow"].value > result["supply_1_flow"].value
+
+
 def test_what_a_mixed_film_displaces_leaves_it(tips: Any) -> None:
     """The mean gap of elastic asperities falls as the separation does."""
     scene = tips.scene(JOURNAL | {"eccentricity": 0.9})
@@ -203,7 +224,7 @@ def test_models_without_a_time_dependent_film_refuse() -> None:
     ("given", "match"),
     [
         (
-            ({"shape": "lobes", "radius": "10 mm", "clearance": "20 um", "width": "20 mm", "eccentricity": [0, 0]},),
+            (LOBES,),
             "march",
         ),
         ((PAD, 0.0, 0.0), "motion.speed: got 0 m/s under a load"),
