@@ -1,4 +1,4 @@
-"""Stribeck curves, stiffness and damping of a bearing, leakage of a seal over the load, and the effects in a bearing one by one."""
+"""Curves of a bearing and of a seal, over speed and load, and the effects in a bearing one by one."""
 
 import os
 from collections.abc import Mapping, Sequence

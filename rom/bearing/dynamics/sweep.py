@@ -164,6 +164,11 @@ def dynamic_point(
     cpu = time.process_time()
     solved = list(_equilibria(scene, resolution, started))
     points = [grid_point(film, instant, frequency_ratio) for film, instant in reversed(solved)]
+    if points[0].numbers["film_min"] <= 0:
+        raise InputError(
+            "load: the walls touch between the nodes of the grid; lower the load, or raise the speed or the viscosity"
+        )
+    points = [point for point in points if point.numbers["film_min"] > 0]
     speed, (film, instant) = abs(scene.motion.speed), solved[-1]
     rotation = rotation_of(scene, speed)
     numbers, uncertainty = finished(points, rotation)

@@ -160,7 +160,7 @@ def test_a_mass_whose_limit_is_not_known_has_no_uncertainty():
     assert (numbers["critical_mass"], errors["critical_mass"]) == (math.inf, math.inf)
 
 
-def test_speeds_without_an_equilibrium_are_left_out_and_said(curve):
+def test_speeds_without_an_equilibrium_are_left_out_and_said():
     (found,) = swept(scene(), 1e-3, 5.0)
     assert [point.speed for point in found.points] == [5.0]
     assert found.omitted[0].speed == 1e-3
@@ -187,7 +187,7 @@ def test_numbers_out_of_range_are_refused(change, message):
 
 def test_other_shapes_are_refused():
     journal = {"shape": "journal", "radius": "50 mm", "clearance": "50 um", "width": "50 mm"}
-    with pytest.raises(InputError, match="geometry.shape: got 'journal'"):
+    with pytest.raises(InputError, match=r"geometry\.shape: got 'journal'"):
         dynamics(scene(journal), [1.0], [1e6])
 
 
