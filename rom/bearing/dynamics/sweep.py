@@ -295,5 +295,4 @@ def check_bearing(scene: Bearing) -> None:
 
 def mass_of(scene: Bearing) -> float | None:
     """The mass of the rotor in the bearing, kg; None if the scene has none."""
-    mass = getattr(getattr(scene, "body", None), "mass", None)
-    return None if mass is None else float(mass)
+    return None if scene.body is None else scene.body.mass

@@ -31,6 +31,14 @@ HOLDING = 1e-9
 """Stiffness that holds a shaft and pads that no pressure moves, over the load per clearance."""
 
 
+FARTHEST = 100.0
+"""Distance of the shaft from the middle of its bore over the clearance beyond which no equilibrium is sought."""
+
+
+UNRESISTED = 1e-9
+"""Force of the film over the load below which it does not resist the load."""
+
+
 def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load: Array | None = None) -> Instant:
     """The film at which the load of the scene and the force of the film balance.
 
@@ -46,7 +54,7 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     Raises
     ------
     InputError
-        If nothing supplies the film, or it closes.
+        If nothing supplies the film, it closes, or the shaft leaves its bore.
     ConvergenceError
         If the motion does not settle.
     """
@@ -86,7 +94,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
     instant = settled(solved, start, given, tolerance=tolerance)
     if not free.any():
         return instant
-    time = 1 / _rate(film)
+    time, shaft = 1 / _rate(film), isinstance(film.scene.geometry, Shaft)
     step = FIRST_STEP * time
     for _ in range(MAX_STEPS):
         last = step >= LAST_STEP * time
@@ -103,12 +111,28 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
             raise reason
         if last:
             return instant
+        if (
+            isinstance(film.scene.geometry, Shaft)
+            and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]
+        ):
+            raise _leaves(force)
         step *= GROWTH
+    unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
+    if shaft and unresisted:
+        raise _leaves(force)
     other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
     raise ConvergenceError(
         f"load: the motion towards the equilibrium does not settle; take more cells, or {other}",
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
+    )
+
+
+def _leaves(force: Array) -> InputError:
+    toward = np.degrees(np.arctan2(force[1], force[0]))
+    return InputError(
+        f"load: got {np.hypot(*force[:2]):.6g} N towards {toward:.4g} degrees from the x axis; no film resists it, and "
+        "the shaft leaves its bore; turn the load or the bore, or take a longer arc"
     )
 
 

@@ -18,10 +18,11 @@ from roughfilm.rom.bearing.dynamics.store import (
     write_csv,
     write_ross,
 )
-from roughfilm.rom.bearing.dynamics.sweep import at_operation, dynamics
+from roughfilm.rom.bearing.dynamics.sweep import at_operation, dynamics, mass_of
 from roughfilm.rom.bearing.dynamics.whirl import Whirl, rigid_whirl
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import free_film
+from roughfilm.rom.bearing.moving.body import Body
 from roughfilm.rom.ladder.model import silent
 from roughfilm.rom.ladder.scene import read_scene
 
@@ -98,6 +99,12 @@ def test_a_heavier_rotor_becomes_unstable_where_the_critical_mass_falls_to_its_o
     (heavy,) = swept(scene(), 5.0, mass=1e9)
     assert light.onset.rotation == math.inf
     assert math.isnan(heavy.onset.rotation)
+
+
+def test_the_mass_is_that_of_the_body_of_the_scene_and_has_no_part_in_the_points():
+    heavy = scene().model_copy(update={"body": Body(mass="40 kg")})
+    assert (mass_of(scene()), mass_of(heavy)) == (None, 40.0)
+    assert point_inputs(heavy, CELLS, 1.0).digest == point_inputs(scene(), CELLS, 1.0).digest
 
 
 def test_dimensionless_coefficients_depend_on_the_sommerfeld_number_alone(curve):
