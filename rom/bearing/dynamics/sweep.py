@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.brief import brief
@@ -12,7 +13,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, grid_point, rotation_of
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
-from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
 from roughfilm.rom.cavitation.motion.coupled import Instant
 from roughfilm.rom.ladder.model import Progress, silent
@@ -163,6 +164,11 @@ def dynamic_point(
     cpu = time.process_time()
     solved = list(_equilibria(scene, resolution, started))
     points = [grid_point(film, instant, frequency_ratio) for film, instant in reversed(solved)]
+    if points[0].numbers["film_min"] <= 0:
+        raise InputError(
+            "load: the walls touch between the nodes of the grid; lower the load, or raise the speed or the viscosity"
+        )
+    points = [point for point in points if point.numbers["film_min"] > 0]
     speed, (film, instant) = abs(scene.motion.speed), solved[-1]
     rotation = rotation_of(scene, speed)
     numbers, uncertainty = finished(points, rotation)
@@ -191,7 +197,8 @@ def _equilibria(scene: Bearing, resolution: int, started: dict[int, Instant]) ->
         if start is None and coarse is not None:
             start = refined(*coarse, film)
         try:
-            instant = equilibrium(film, start, tolerance=TOLERANCE)
+            with np.errstate(all="ignore"):  # pressures that are not finite end the iteration with an error
+                instant = equilibrium(film, start, tolerance=TOLERANCE)
         except (InputError, ConvergenceError) as error:
             refused += isinstance(error, InputError)
             if coarsening == COARSENING[-1] or refused > 1:
@@ -276,10 +283,10 @@ def _checked(
 
 def check_bearing(scene: Bearing) -> None:
     """Raise InputError for a bearing whose walls do not move freely, or may touch."""
-    if not isinstance(scene.geometry, Lobes):
+    if not isinstance(scene.geometry, MovingWall):
         raise InputError(
             f"geometry.shape: got {scene.geometry.shape!r}; stiffness and damping are those of a wall that moves "
-            "freely, take 'lobes'"
+            "freely, take 'lobes' or a pad about its pivot"
         )
     if scene.asperities is not None or scene.roughness is not None:
         place = "asperities" if scene.asperities is not None else "roughness"
@@ -288,5 +295,4 @@ def check_bearing(scene: Bearing) -> None:
 
 def mass_of(scene: Bearing) -> float | None:
     """The mass of the rotor in the bearing, kg; None if the scene has none."""
-    mass = getattr(getattr(scene, "body", None), "mass", None)
-    return None if mass is None else float(mass)
+    return None if scene.body is None else scene.body.mass

@@ -144,9 +144,18 @@ def test_raimondi_and_boyds_flows_and_attitudes_are_met_and_butenschoen_contradi
     assert {row.case for row in loads if row.verdict is Verdict.SUSPECT} >= {"ε = 0.97, B/D = 0.25"}
 
 
-def test_lund_and_thomsens_static_points_are_met(monkeypatch):
-    monkeypatch.setattr(lund_thomsen, "CELLS", 90)
-    assert verdicts(answer("lund_thomsen").rows) == {Verdict.WITHIN}
+def test_lund_and_thomsens_static_points_stiffness_and_damping_are_met_within_2_per_cent(monkeypatch):
+    monkeypatch.setattr(lund_thomsen, "CELLS", 128)
+    rows = answer("lund_thomsen").rows
+    assert len(rows) == 70
+    small = [row for row in rows if row.verdict is not Verdict.WITHIN]
+    assert {(row.case, row.published) for row in small} <= {("elliptical, S = 0.12", -0.01)}  # 0.1 % of Bxx
+    assert all(abs(row.difference) < 0.03 for row in small)
+    assert {row.quantity for row in rows} == {
+        "eccentricity ε",
+        "attitude angle",
+        *(f"{matrix}{row}{column}" for matrix in "KB" for row in "xy" for column in "xy"),
+    }
 
 
 def test_finite_volumes_meet_the_wide_slider_of_constant_viscosity():
