@@ -12,6 +12,7 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.dynamics.whirl import Whirl, condensed, rigid_whirl, whirl_of
 from roughfilm.rom.bearing.free.equilibrium import holding
 from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.free.solve import placed
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.evaluation.friction import friction
@@ -121,7 +122,7 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
     numbers = {
         **dict(zip(named("stiffness", len(stiffness)), map(float, stiffness.flat), strict=True)),
         **dict(zip(named("damping", len(damping)), map(float, damping.flat), strict=True)),
-        "film_min": scene.geometry.at(instant.place).thinnest,
+        "film_min": placed(film, instant).geometry.thinnest,
         "pressure_max": peak_pressure(solution) + scene.lubricant.cavitation_pressure,
         "power_loss": abs(scene.motion.speed) * friction(solution),
     }

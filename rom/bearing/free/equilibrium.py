@@ -27,8 +27,14 @@ LAST_STEP = 1e6
 MAX_STEPS = 200
 """Largest number of time steps."""
 
-HOLDING = 1e-9
+HOLDING = 1e-6
 """Stiffness that holds a shaft and pads that no pressure moves, over the load per clearance."""
+
+MAX_MOVE = 0.25
+"""Largest move of a shaft or of the edge of a pad in a step, over the clearance."""
+
+SETTLED = 1e-3
+"""Move in the last step, over the clearance, up to which the motion has ended."""
 
 
 def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load: Array | None = None) -> Instant:
@@ -58,25 +64,26 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
             "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
         )
     force = film.load if load is None else load
-    free, held_by = film.free, holding(film, force)
     if start is not None:
-        drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free)
         try:
-            return settled(solved, start, drive, tolerance=tolerance)
+            instant = _moved(film, start, force, 0.0, tolerance)
         except ConvergenceError:
             pass
+        else:
+            if _move(film, start, instant) <= MAX_MOVE:
+                return instant
     if start is None:
         start = film.first(film.wall.place)
         constant = unchanging(solved.problem)
-        if constant != solved.problem and free.any():
+        if constant != solved.problem and film.free.any():
             simple = replace(film, solved=replace(solved, problem=constant))
-            start = _settling(simple, start, force, held_by, tolerance)
-    return _settling(film, start, force, held_by, tolerance)
+            start = _settling(simple, start, force, tolerance)
+    return _settling(film, start, force, tolerance)
 
 
-def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tolerance: float) -> Instant:
+def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) -> Instant:
     """The end of the motion without mass from a film."""
-    solved, free, count = film.solved, film.free, force.size
+    solved, count = film.solved, force.size
     given = Drive(
         speed=solved.problem.speed,
         force=force,
@@ -84,24 +91,26 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
         free=np.zeros(count, dtype=bool),
     )
     instant = settled(solved, start, given, tolerance=tolerance)
-    if not free.any():
+    if not film.free.any():
         return instant
     time = 1 / _rate(film)
     step = FIRST_STEP * time
     for _ in range(MAX_STEPS):
         last = step >= LAST_STEP * time
-        storage = (0.0, 0.0) if last else (1 / step, held(solved, instant) / step)
-        drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free, storage=storage)
         try:
-            instant = settled(solved, instant, drive, tolerance=tolerance)
+            following = _moved(film, instant, force, 0.0 if last else 1 / step, tolerance)
         except ConvergenceError:
+            following = None
+        move = np.inf if following is None else _move(film, instant, following)
+        if following is None or move > MAX_MOVE:
             step /= GROWTH**2
             if step < 1e-6 * time:
                 break
             continue
+        instant = following
         if (reason := closed(film, instant, force)) is not None:
             raise reason
-        if last:
+        if last and move <= SETTLED:
             return instant
         step *= GROWTH
     other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
@@ -110,6 +119,27 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
     )
+
+
+def _moved(film: FreeFilm, instant: Instant, force: Array, rate: float, tolerance: float) -> Instant:
+    """The film after a step of backward Euler of the length 1/rate, s; in equilibrium for the rate 0."""
+    solved, held_by = film.solved, holding(film, force)
+    storage = (rate, rate * held(solved, instant)) if rate else (0.0, 0.0)
+    drive = Drive(
+        speed=solved.problem.speed,
+        force=force + held_by @ instant.place,
+        stiffness=held_by,
+        free=film.free,
+        storage=storage,
+    )
+    return settled(solved, instant, drive, tolerance=tolerance)
+
+
+def _move(film: FreeFilm, instant: Instant, following: Instant) -> float:
+    """The largest move of a coordinate over its unit; 0 of a pad about its pivot, which may move by many."""
+    if not isinstance(film.scene.geometry, Shaft):
+        return 0.0
+    return float((np.abs(following.place - instant.place) / film.wall.unit).max())
 
 
 def _rate(film: FreeFilm) -> float:
@@ -121,14 +151,17 @@ def _rate(film: FreeFilm) -> float:
 def holding(film: FreeFilm, force: Array) -> Array:
     """The stiffness that holds a shaft and its pads where no pressure moves them, shape (coordinates, coordinates).
 
-    A pad without pressure has no moment at any tilt, and a shaft on a single pad that tilts no force across it. With
-    the stiffness such a pad rests at the least tilt at which its film carries nothing, and the shaft nearest to the
-    middle. A pad of a thrust bearing always carries its load, and has none.
+    A pad without pressure has no moment at any tilt, and a shaft on a single pad that tilts no force across it. The
+    stiffness holds them at their place before each step, so that they rest where the film that moved them ends. It is
+    small beside that of a film, and has no force in equilibrium. A pad of a thrust bearing always carries its load, and
+    has none.
     """
-    unit = film.wall.unit
-    if not isinstance(film.scene.geometry, Shaft):
+    unit, scene = film.wall.unit, film.scene
+    if not isinstance(scene.geometry, Shaft):
         return np.zeros((unit.size, unit.size))
-    return np.diag(HOLDING * np.abs(force).max() * unit[0] / unit**2)
+    width = 1.0 if film.whole.problem.shape.wide else scene.geometry.width or 1.0
+    sliding = scene.lubricant.viscosity * abs(scene.motion.speed) * width * (scene.geometry.radius / unit[0]) ** 2
+    return np.diag(HOLDING * max(float(np.abs(force).max()), sliding) * unit[0] / unit**2)
 
 
 def refined(coarse: FreeFilm, instant: Instant, fine: FreeFilm) -> Instant:
