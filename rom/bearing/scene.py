@@ -182,6 +182,10 @@ class Bearing(Scene):
 
     Fields of the results, of the shape of the grid: ``x``, ``y`` (m, or rad and m), ``film_thickness`` (m),
     ``pressure`` (Pa), ``density_ratio`` θ (1), which below 1 is the fraction of the gap filled with liquid.
+
+    Attributes
+    ----------
+    supply : grooves, holes and pockets inside of the film in which lubricant is supplied.
     """
 
     kind: Literal["bearing"]
@@ -337,6 +341,11 @@ class Bearing(Scene):
 
     def _can_be_joined(self, pieces: str) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
+        if self.wide:
+            raise ValueError(
+                f"geometry.width: is missing, but {pieces} are fed through their sides; give a width, or an arc that "
+                "leaves gaps"
+            )
         if boundary.inlet != Inlet() or boundary.outlet != Outlet():
             raise ValueError(f"boundary: got an inlet or outlet, but {pieces} have none; leave it out")
         if max(boundary.sides.low, boundary.sides.high) <= lowest and not self.supply:

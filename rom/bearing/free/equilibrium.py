@@ -9,6 +9,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.bearing.free.closed import closed
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.geometry.journal import Shaft
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
@@ -28,13 +29,22 @@ MAX_STEPS = 200
 """Largest number of time steps."""
 
 HOLDING = 1e-6
-"""Stiffness that holds a shaft and pads that no pressure moves, over the load per clearance."""
+"""Stiffness that holds a shaft at its place before a step, over the load per clearance."""
+
+ALIGNING = 1e-7
+"""Stiffness that aligns pads with the shaft, over the load per clearance."""
 
 MAX_MOVE = 0.25
-"""Largest move of a shaft or of the edge of a pad in a step, over the clearance."""
+"""Largest move of a shaft or of the edge of a pad in a step, over the clearance and its distance."""
 
 SETTLED = 1e-3
 """Move in the last step, over the clearance, up to which the motion has ended."""
+
+FARTHEST = 100.0
+"""Distance of the shaft from the middle of its bore over the clearance beyond which no equilibrium is sought."""
+
+UNRESISTED = 1e-9
+"""Force of the film over the load below which it does not resist the load."""
 
 
 def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load: Array | None = None) -> Instant:
@@ -52,7 +62,7 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     Raises
     ------
     InputError
-        If nothing supplies the film, or it closes.
+        If nothing supplies the film, it closes, or the shaft leaves its bore.
     ConvergenceError
         If the motion does not settle.
     """
@@ -93,7 +103,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) ->
     instant = settled(solved, start, given, tolerance=tolerance)
     if not film.free.any():
         return instant
-    time = 1 / _rate(film)
+    time, shaft = 1 / _rate(film), isinstance(film.scene.geometry, Shaft)
     step = FIRST_STEP * time
     for _ in range(MAX_STEPS):
         last = step >= LAST_STEP * time
@@ -112,7 +122,12 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) ->
             raise reason
         if last and move <= SETTLED:
             return instant
+        if shaft and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]:
+            raise _leaves(force)
         step *= GROWTH
+    unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
+    if shaft and unresisted:
+        raise _leaves(force)
     other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
     raise ConvergenceError(
         f"load: the motion towards the equilibrium does not settle; take more cells, or {other}",
@@ -123,12 +138,12 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) ->
 
 def _moved(film: FreeFilm, instant: Instant, force: Array, rate: float, tolerance: float) -> Instant:
     """The film after a step of backward Euler of the length 1/rate, s; in equilibrium for the rate 0."""
-    solved, held_by = film.solved, holding(film, force)
+    solved, held_by, aligned_by = film.solved, np.diag(_held(film, force)), holding(film, force)
     storage = (rate, rate * held(solved, instant)) if rate else (0.0, 0.0)
     drive = Drive(
         speed=solved.problem.speed,
         force=force + held_by @ instant.place,
-        stiffness=held_by,
+        stiffness=held_by + aligned_by,
         free=film.free,
         storage=storage,
     )
@@ -136,10 +151,19 @@ def _moved(film: FreeFilm, instant: Instant, force: Array, rate: float, toleranc
 
 
 def _move(film: FreeFilm, instant: Instant, following: Instant) -> float:
-    """The largest move of a coordinate over its unit; 0 of a pad about its pivot, which may move by many."""
+    """The largest move of a coordinate over its unit and its size; 0 of a pad about its pivot, which may move more."""
     if not isinstance(film.scene.geometry, Shaft):
         return 0.0
-    return float((np.abs(following.place - instant.place) / film.wall.unit).max())
+    sizes = film.wall.unit + np.abs(instant.place)
+    return float((np.abs(following.place - instant.place) / sizes).max())
+
+
+def _leaves(force: Array) -> InputError:
+    toward = np.degrees(np.arctan2(force[1], force[0]))
+    return InputError(
+        f"load: got {np.hypot(*force[:2]):.6g} N towards {toward:.4g} degrees from the x axis; no film resists it, and "
+        "the shaft leaves its bore; turn the load or the bore, or take a longer arc"
+    )
 
 
 def _rate(film: FreeFilm) -> float:
@@ -149,19 +173,42 @@ def _rate(film: FreeFilm) -> float:
 
 
 def holding(film: FreeFilm, force: Array) -> Array:
-    """The stiffness that holds a shaft and its pads where no pressure moves them, shape (coordinates, coordinates).
+    """The stiffness that aligns pads with the shaft, shape (coordinates, coordinates); 0 without tilting pads.
 
-    A pad without pressure has no moment at any tilt, and a shaft on a single pad that tilts no force across it. The
-    stiffness holds them at their place before each step, so that they rest where the film that moved them ends. It is
-    small beside that of a film, and has no force in equilibrium. A pad of a thrust bearing always carries its load, and
-    has none.
+    A pad without pressure has no moment at any tilt. With the angle θ_p of its pivot and the place e of the shaft, its
+    film is symmetric about the pivot but for the term -(e_t + R δ) sin(θ - θ_p) with e_t = e_y cos θ_p - e_x sin θ_p.
+    The stiffness opposes e_t + R δ, so that a pad that carries no load rests at the tilt nearest to alignment at which
+    its film carries nothing. It changes moments of pads that carry load by about ``ALIGNING``.
     """
-    unit, scene = film.wall.unit, film.scene
+    geometry, unit = film.scene.geometry, film.wall.unit
+    stiffness = np.zeros((unit.size, unit.size))
+    if isinstance(geometry, Lobes):
+        for pad, angle in enumerate(geometry.pivots):
+            tangent = np.zeros(unit.size)
+            tangent[:2], tangent[2 + pad] = (-np.sin(angle), np.cos(angle)), geometry.radius
+            stiffness += np.outer(tangent, tangent)
+    return np.asarray(ALIGNING * _load_scale(film, force) / unit[0] * stiffness)
+
+
+def _held(film: FreeFilm, force: Array) -> Array:
+    """The stiffness of each coordinate against moves in a step, which has no force in equilibrium.
+
+    A shaft on a single pad that tilts has no force across it. A pad of a thrust bearing is held by its film alone.
+    """
+    if not isinstance(film.scene.geometry, Shaft):
+        return np.zeros(film.wall.unit.size)
+    unit = film.wall.unit
+    return np.where(film.wall.turns, 0.0, HOLDING * _load_scale(film, force) / unit)
+
+
+def _load_scale(film: FreeFilm, force: Array) -> float:
+    """The load of a shaft, or η u B (R/c)² if that is larger, N."""
+    scene, unit = film.scene, film.wall.unit
     if not isinstance(scene.geometry, Shaft):
-        return np.zeros((unit.size, unit.size))
+        return 0.0
     width = 1.0 if film.whole.problem.shape.wide else scene.geometry.width or 1.0
     sliding = scene.lubricant.viscosity * abs(scene.motion.speed) * width * (scene.geometry.radius / unit[0]) ** 2
-    return np.diag(HOLDING * max(float(np.abs(force).max()), sliding) * unit[0] / unit**2)
+    return float(max(np.abs(force).max(), sliding))
 
 
 def refined(coarse: FreeFilm, instant: Instant, fine: FreeFilm) -> Instant:
