@@ -6,7 +6,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, finite_arithmetic
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, settle_bank
 from roughfilm.rom.cavitation.discretise import Faces
@@ -38,6 +38,9 @@ move nodes to and fro; and everywhere only if no storage is negative, so that th
 
 LEAST_FLOW = 1e-3
 """Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
+
+LEAST_PART = 1e-3
+"""Least size of the parts of the force on a coordinate over that on the whole film: pads may carry nothing."""
 
 COLUMNS_KEPT = 5
 """Number of steps for which the derivatives by the coordinates are kept: they change little from step to step."""
@@ -183,9 +186,12 @@ class Trial:
 
     @property
     def sizes(self) -> Array:
-        """The sum of the sizes of the parts of the force on each coordinate; 1 without any force."""
+        """The sum of the sizes of the parts of the force on each coordinate, bounded below; 1 without any force."""
         film = self.film
-        sizes = np.abs(self.pressure - film.ambient).ravel() @ np.abs(film.weights) + np.abs(self.drive.force)
+        above = np.abs(self.pressure - film.ambient)
+        sizes = above.ravel() @ np.abs(film.weights) + np.abs(self.drive.force)
+        least = LEAST_PART * film.sides * float((above * film.grid.areas).sum()) * film.reach
+        sizes = np.maximum(sizes, least)
         return np.where(sizes > 0, sizes, 1.0)
 
     def by_coordinates(self, *, central: bool = False) -> Array:
@@ -297,6 +303,7 @@ def trial_at(film: MovingFilm, instant: Instant, drive: Drive) -> Trial:
     )
 
 
+@finite_arithmetic("motion")
 def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float, limit: int = ITERATIONS) -> Instant:
     """The instant at which inflow equals outflow at every node and behind every restrictor, and all forces balance.
 
