@@ -6,7 +6,10 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
+from roughfilm.rom.bearing.free.closed import closed
 from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.geometry.journal import Shaft
+from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
 from roughfilm.rom.cavitation.motion.march import held
@@ -25,10 +28,7 @@ MAX_STEPS = 200
 """Largest number of time steps."""
 
 HOLDING = 1e-9
-"""Stiffness that holds pads without pressure, over the load per clearance."""
-
-CLOSEST = 1e-4
-"""Least film over the clearance below which no equilibrium is sought."""
+"""Stiffness that holds a shaft and pads that no pressure moves, over the load per clearance."""
 
 
 FARTHEST = 100.0
@@ -54,13 +54,19 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     Raises
     ------
     InputError
-        If the film becomes thinner than ``CLOSEST`` times the clearance, or the shaft leaves its bore.
+        If nothing supplies the film, it closes, or the shaft leaves its bore.
     ConvergenceError
         If the motion does not settle.
     """
     solved = film.solved
+    sides = solved.problem.ends.sides
+    if solved.problem.shape.joined[0] and not solved.inflows and sides is not None and max(sides) <= 0:
+        raise InputError(
+            "boundary.sides: got the cavitation pressure at both sides of a bore without grooves, which then has no "
+            "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
+        )
     force = film.load if load is None else load
-    free, held_by = film.free, _holding(film, force)
+    free, held_by = film.free, holding(film, force)
     if start is not None:
         drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free)
         try:
@@ -88,7 +94,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
     instant = settled(solved, start, given, tolerance=tolerance)
     if not free.any():
         return instant
-    time = 1 / _rate(film)
+    time, shaft = 1 / _rate(film), isinstance(film.scene.geometry, Shaft)
     step = FIRST_STEP * time
     for _ in range(MAX_STEPS):
         last = step >= LAST_STEP * time
@@ -101,21 +107,22 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
             if step < 1e-6 * time:
                 break
             continue
+        if (reason := closed(film, instant, force)) is not None:
+            raise reason
         if last:
             return instant
-        least = float(instant.faces.thickness.min())
-        if least < CLOSEST * film.wall.unit[0]:
-            raise InputError(
-                f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; lower the load, or "
-                "raise the speed or the viscosity"
-            )
-        if float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]:
+        if (
+            isinstance(film.scene.geometry, Shaft)
+            and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]
+        ):
             raise _leaves(force)
         step *= GROWTH
-    if np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2]):
+    unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
+    if shaft and unresisted:
         raise _leaves(force)
+    other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
     raise ConvergenceError(
-        "load: the motion towards the equilibrium does not settle; take more cells, or another load",
+        f"load: the motion towards the equilibrium does not settle; take more cells, or {other}",
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
     )
@@ -135,11 +142,17 @@ def _rate(film: FreeFilm) -> float:
     return max(abs(scene.motion.speed) / scene.geometry.length * 2 * np.pi, 1e-6)
 
 
-def _holding(film: FreeFilm, force: Array) -> Array:
-    """The stiffness that holds pads without pressure at their place, shape (coordinates, coordinates)."""
+def holding(film: FreeFilm, force: Array) -> Array:
+    """The stiffness that holds a shaft and its pads where no pressure moves them, shape (coordinates, coordinates).
+
+    A pad without pressure has no moment at any tilt, and a shaft on a single pad that tilts no force across it. With
+    the stiffness such a pad rests at the least tilt at which its film carries nothing, and the shaft nearest to the
+    middle. A pad of a thrust bearing always carries its load, and has none.
+    """
     unit = film.wall.unit
-    stiff = np.where(film.wall.turns, HOLDING * np.abs(force).max() * unit[0] / unit**2, 0.0)
-    return np.diag(stiff)
+    if not isinstance(film.scene.geometry, Shaft):
+        return np.zeros((unit.size, unit.size))
+    return np.diag(HOLDING * np.abs(force).max() * unit[0] / unit**2)
 
 
 def refined(coarse: FreeFilm, instant: Instant, fine: FreeFilm) -> Instant:

@@ -8,7 +8,7 @@ import numpy as np
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
-from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
@@ -62,7 +62,7 @@ class FreeSolution:
 
 def placed(film: FreeFilm, instant: Instant) -> Bearing:
     """The scene with its wall at the coordinates of an instant."""
-    assert isinstance(film.scene.geometry, Lobes)
+    assert isinstance(film.scene.geometry, MovingWall)
     return film.scene.moved(film.scene.geometry.at(instant.place))
 
 

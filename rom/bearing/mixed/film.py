@@ -25,6 +25,9 @@ from roughfilm.rom.cavitation.solve import Solution, solve
 RESIDUAL_FRACTION = 0.1
 """Fraction of the error of the load that the residuals of the film may cause."""
 
+SEPARATION_STEP = 1e-5
+"""Step of the separation over that of first contact, over which the slope of the mean gap is taken."""
+
 MIN_RESIDUAL = 1e-12
 """Smallest residual that is required of a film."""
 
@@ -179,9 +182,21 @@ class MixedFilm:
 
 
 def mixed_problem(scene: Bearing, asperities: Asperities) -> Problem:
-    """The problem of a film with the flow factors of its asperities."""
+    """The problem of a film with the flow factors of its asperities, whose mean gap changes with the separation."""
     problem = scene.problem()
-    return replace(problem, shape=replace(problem.shape, roughness=FlooredFlowFactors(asperities, asperities.mean_gap)))
+    shape = replace(problem.shape, roughness=FlooredFlowFactors(asperities, asperities.mean_gap))
+    opening, thickness = problem.opening, problem.shape.thickness
+    if opening is None:
+        return replace(problem, shape=shape)
+    step = SEPARATION_STEP * asperities.touching
+
+    def of_gap(x: Array, y: Array) -> Array:
+        """The rate of the mean gap, m/s, which in plastic contact falls slower than the separation."""
+        h = thickness(x, y)
+        slope = (asperities.mean_gap(h + step) - asperities.mean_gap(h)) / step
+        return np.asarray(opening(x, y) * slope)
+
+    return replace(problem, shape=shape, opening=of_gap)
 
 
 def mixed_state(scene: Bearing, solution: Solution, contact: AsperityLoad) -> MixedState:

@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
-from roughfilm.rom.bearing.closed_forms import linear_slider
+from roughfilm.rom.bearing.closed_forms.sliding import linear_slider
 from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.equilibrium import equilibrium
