@@ -111,10 +111,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
             raise reason
         if last:
             return instant
-        if (
-            isinstance(film.scene.geometry, Shaft)
-            and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]
-        ):
+        if shaft and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]:
             raise _leaves(force)
         step *= GROWTH
     unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
@@ -152,7 +149,15 @@ def holding(film: FreeFilm, force: Array) -> Array:
     unit = film.wall.unit
     if not isinstance(film.scene.geometry, Shaft):
         return np.zeros((unit.size, unit.size))
-    return np.diag(HOLDING * np.abs(force).max() * unit[0] / unit**2)
+    size = float(np.abs(force).max()) or _sheared(film)
+    return np.diag(HOLDING * size * unit[0] / unit**2)
+
+
+def _sheared(film: FreeFilm) -> float:
+    """The force 6ηuL/c² A of a film of the area A that is as thick as the clearance c, N."""
+    problem, clearance = film.solved.problem, film.wall.unit[0]
+    pressure = 6 * problem.viscosity * problem.speed * film.scene.geometry.length / clearance**2
+    return float(pressure * film.solved.grid.areas.sum())
 
 
 def refined(coarse: FreeFilm, instant: Instant, fine: FreeFilm) -> Instant:
