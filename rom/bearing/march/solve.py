@@ -241,6 +241,8 @@ def _uncertainties(
     unit = getattr(duty.scene.geometry, "clearance", None) or float(fine["film_min"][0])
     least = dict.fromkeys(("eccentricity_max", "orbit_width", "orbit_height"), PATH_SAFETY * path)
     least |= {"film_min": PATH_SAFETY * path * unit, "cavitated_fraction_max": 1 / fine_cells}
+    film, pressure = (summary.quantities[name].value for name in ("film_min", "pressure_max"))
+    least["pressure_max"] = abs(pressure) * least["film_min"] / film
     return {name: max(one, least.get(name, 0.0)) for name, one in found.items()}
 
 
