@@ -35,7 +35,12 @@ def test_a_repeating_column_and_its_slope_are_continuous_over_the_seam():
 
 
 def test_an_angle_gains_whole_turns_in_a_period():
-    table = {"time": ["0 s", "1 s", "2 s"], "load": ["1 N"] * 3, "angle": ["0 deg", "180 deg", "360 deg"], "period": "2 s"}
+    table = {
+        "time": ["0 s", "1 s", "2 s"],
+        "load": ["1 N"] * 3,
+        "angle": ["0 deg", "180 deg", "360 deg"],
+        "period": "2 s",
+    }
     curve = scene(table).motion.over_time.table.curves["angle"]
     assert curve(7.0) == pytest.approx(7 * math.pi)
     assert curve(6.0, 1) == pytest.approx(math.pi)
@@ -72,7 +77,11 @@ FAULTS = {
     "unknown column": ({"time": TIMES, "lod": ["1 N"] * 2}, {}, "unknown key"),
     "no time": ({"load": ["1 N"] * 2}, {}, "time: is missing"),
     "one component": ({"time": TIMES, "load_x": ["1 N"] * 2}, {}, "load_y: is missing"),
-    "two loads": ({"time": TIMES, "load": ["1 N"] * 2, "load_x": ["1 N"] * 2, "load_y": ["1 N"] * 2}, {}, "beside load"),
+    "two loads": (
+        {"time": TIMES, "load": ["1 N"] * 2, "load_x": ["1 N"] * 2, "load_y": ["1 N"] * 2},
+        {},
+        "beside load",
+    ),
     "load and path": (
         {"time": TIMES, "load": ["1 N"] * 2, "eccentricity_x": [0, 0.1], "eccentricity_y": [0, 0]},
         {},
