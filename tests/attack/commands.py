@@ -163,7 +163,7 @@ COMMANDS = {
     "stribeck": Command(
         words=_words("stribeck pad.toml --out curves --resolution 16 --loads 1MPa,2MPa --speeds 1m/s,5m/s,10m/s --json")
     ),
-    "march": Command(
+    "march, shaft": Command(
         words=_words("march shaft.toml --out marched --end 3ms --cells 16,8 --fields 3 --json"),
     ),
     "effects": Command(words=_words("effects pad.toml --out pad --resolution 16 --json")),
