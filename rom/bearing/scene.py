@@ -74,11 +74,11 @@ class BearingLubricant(Fluid):
 class BearingMotion(Part):
     """The speed of the flat wall, m/s, on a ring at the mean radius; negative if the wall slides towards the inlet.
 
-    In the file of a journal, a sector or a washer it may be a rotational speed, such as "3000 rpm".
+    In the file of a shaft, a sector or a washer it may be a rotational speed, such as "3000 rpm".
 
     Attributes
     ----------
-    speed : sliding speed, m/s; of a journal, a sector or a washer also a rotational speed, "3000 rpm".
+    speed : sliding speed, m/s; of a shaft, a sector or a washer also a rotational speed, "3000 rpm".
     approach : velocity V at which the walls approach each other, ∂h/∂t = -V, m/s, negative if they part; of a journal
         that of the shaft towards its narrowest place, ∂h/∂t = V cos φ with the angle φ from the widest place.
     over_time : speed, load or path over time, for a march; steady films have the speed and the load of the scene.
@@ -91,6 +91,8 @@ class BearingMotion(Part):
 
 class Inlet(Part):
     """The pressure above ambient, Pa, or the density ratio θ at the inlet; ambient pressure by default.
+
+    The inlet of a shaft in several lobes is the gaps between them.
 
     θ < 1 is starved, θ = 1 flooded at cavitation pressure, and θ > 1 pressurised by the law of compressibility. The ram
     pressure ``ram_factor`` ρ u²/2 of the liquid that meets the bearing at the sliding speed u adds to the pressure.
@@ -187,6 +189,10 @@ class Bearing(Scene):
 
     Fields of the results, of the shape of the grid: ``x``, ``y`` (m, or rad and m), ``film_thickness`` (m),
     ``pressure`` (Pa), ``density_ratio`` θ (1), which below 1 is the fraction of the gap filled with liquid.
+
+    Attributes
+    ----------
+    supply : grooves, holes and pockets inside of the film in which lubricant is supplied.
     """
 
     kind: Literal["bearing"]
@@ -258,6 +264,8 @@ class Bearing(Scene):
             self._can_be_joined("joined pads")
         elif isinstance(self.geometry, Lobes) and self.geometry.joined:
             self._can_be_joined("lobes without gaps")
+        elif isinstance(self.geometry, Lobes) and not self.geometry.single:
+            self._can_have_gaps()
         if self.wide and self.boundary.sides != Sides():
             raise ValueError("boundary.sides: got pressures for an infinitely wide bearing; remove them or add a width")
         law, least = self.lubricant.piezoviscosity, math.exp(-LOG_VISCOSITY)
@@ -356,12 +364,29 @@ class Bearing(Scene):
 
     def _can_be_joined(self, pieces: str) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
+        if self.wide:
+            raise ValueError(
+                f"geometry.width: is missing, but {pieces} are fed through their sides; give a width, or an arc that "
+                "leaves gaps"
+            )
         if boundary.inlet != Inlet() or boundary.outlet != Outlet():
             raise ValueError(f"boundary: got an inlet or outlet, but {pieces} have none; leave it out")
         if max(boundary.sides.low, boundary.sides.high) <= lowest and not self.supply:
             raise ValueError(
                 f"boundary.sides: got no pressure above the cavitation pressure of {lowest!r} Pa; {pieces} are "
                 "fed through their sides, raise one of the two, or give [[supply]]"
+            )
+
+    def _can_have_gaps(self) -> None:
+        theta = self.boundary.inlet.theta
+        if theta is not None and theta < 1:
+            raise ValueError(
+                f"boundary.inlet.theta: got {theta!r} for the gaps between lobes, which are full; give at least 1, or a "
+                "pressure"
+            )
+        if self.boundary.outlet != Outlet():
+            raise ValueError(
+                "boundary.outlet: got one, but the gaps between lobes have the pressure of boundary.inlet; leave it out"
             )
 
     @property

@@ -23,6 +23,7 @@ GROUPS = {
     },
     "Bearings and seals": {
         "stribeck": "Sweep speed and load of a bearing, smooth or with walls that may touch, to Stribeck curves.",
+        "dynamics": "Sweep speed and load of a bearing: stiffness, damping and the stability of its rotor.",
         "march": "March a bearing in time: film, pressure, load, friction and flows as loads and speeds change.",
         "effects": "Switch the effects of a bearing on one at a time: what each adds to load, friction and flow, and "
         "to the film.",
