@@ -418,6 +418,12 @@ def test_many_waves_approach_their_average_in_inverse_proportion() -> None:
     assert values["gain"] == pytest.approx(0.037, abs=5e-4)
 
 
+def test_a_load_that_turns_at_half_of_the_speed_leaves_a_thinner_film() -> None:
+    least = values_of("bearings/changing_load")["least"]
+    assert 1e6 * least["standing"] == pytest.approx(12.97, abs=0.1)
+    assert 1e6 * least["half speed"] == pytest.approx(3.8, abs=0.2)
+
+
 def test_the_load_of_a_washer_moves_from_asperities_to_the_film() -> None:
     values = values_of("mixed_lubrication/stribeck_washer")
     assert values["lift_off"] == pytest.approx([0.14, 0.60], abs=0.006)
