@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import numpy as np
-from roughfilm.rom.cavitation.transient import march
 
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.rom.cavitation.discretise import Ends
