@@ -27,6 +27,9 @@ COARSENING = (4, 2, 1)
 TOLERANCE = 1e-9
 """Residual at which a film is solved."""
 
+MAX_FILM_RATIO = 3.0
+"""Largest ratio of the least films of a start and of the equilibrium that Newton's method finds from it."""
+
 ONSET_TOLERANCE = 1e-4
 """Relative error of the speed of onset at which its search stops."""
 
@@ -164,6 +167,10 @@ def dynamic_point(
     cpu = time.process_time()
     solved = list(_equilibria(scene, resolution, started))
     points = [grid_point(film, instant, frequency_ratio) for film, instant in reversed(solved)]
+    if points[0].numbers.get("stiffness", 1.0) <= 0:
+        raise InputError(
+            "load: the equilibrium of the pad is not stable; move the pivot, or take another load or speed"
+        )
     if points[0].numbers["film_min"] <= 0:
         raise InputError(
             "load: the walls touch between the nodes of the grid; lower the load, or raise the speed or the viscosity"
@@ -199,6 +206,8 @@ def _equilibria(scene: Bearing, resolution: int, started: dict[int, Instant]) ->
         try:
             with np.errstate(all="ignore"):  # pressures that are not finite end the iteration with an error
                 instant = equilibrium(film, start, tolerance=TOLERANCE)
+                if start is not None and _far(start, instant):
+                    instant = equilibrium(film, None, tolerance=TOLERANCE)
         except (InputError, ConvergenceError) as error:
             refused += isinstance(error, InputError)
             if coarsening == COARSENING[-1] or refused > 1:
@@ -207,6 +216,12 @@ def _equilibria(scene: Bearing, resolution: int, started: dict[int, Instant]) ->
         started[coarsening] = instant
         coarse = film, instant
         yield film, instant
+
+
+def _far(start: Instant, found: Instant) -> bool:
+    """Whether the least film is so far from that of the start that it may be an equilibrium that is not stable."""
+    ratio = float(found.faces.thickness.min() / start.faces.thickness.min())
+    return not 1 / MAX_FILM_RATIO < ratio < MAX_FILM_RATIO
 
 
 def onset_of(

@@ -146,6 +146,17 @@ def test_pads_that_tilt_have_little_cross_stiffness_and_carry_any_mass():
     assert found.points[0].numbers["critical_mass"] == math.inf
 
 
+def test_the_film_of_a_pad_about_its_pivot_is_as_the_root_of_the_speed_and_its_stiffness_as_load_over_film():
+    """W ∝ u/h² at the tilt over the film that the pivot sets."""
+    pad = {"shape": "pivoted", "length": "50 mm", "width": "50 mm", "pivot": [0.58, 0.5]}
+    (found,) = swept(scene(pad, speed="10 m/s"), 5.0, 10.0, 20.0, pressures=[8e5])
+    films = [point.numbers["film_min"] for point in found.points]
+    assert np.diff(np.log(films)) == pytest.approx(np.log(2) / 2, rel=1e-3)
+    for point in found.points:
+        ratio = point.numbers["stiffness"] * point.numbers["film_min"] / point.load
+        assert ratio == pytest.approx(found.points[0].stiffness[0, 0] * films[0] / found.points[0].load, rel=1e-3)
+
+
 def test_uncertainties_cover_the_numbers_on_a_finer_grid(curve):
     (fine,) = dynamics(scene(), [10.0], [PRESSURE], resolution=4 * CELLS)
     point = curve.points[1]
