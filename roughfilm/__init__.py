@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from roughfilm.interface.curves import leakage_curve as leakage_curve
     from roughfilm.interface.curves import stribeck as stribeck
     from roughfilm.interface.fitting import fit_description as fit_description
+    from roughfilm.interface.motion import march as march
     from roughfilm.interface.results import load_result as load_result
     from roughfilm.interface.results import save as save
     from roughfilm.interface.scenes import load_scene as load_scene
@@ -58,6 +59,7 @@ else:
         "interface.cases": ("collect_study", "write_case", "write_study"),
         "interface.curves": ("effects", "leakage_curve", "stribeck"),
         "interface.fitting": ("fit_description",),
+        "interface.motion": ("march",),
         "interface.results": ("load_result", "save"),
         "interface.scenes": ("load_scene", "read_scene", "replace"),
         "interface.solving": ("advise", "compare", "models", "solve"),

@@ -316,12 +316,15 @@ def _lobes(draw, length, film, _rise):
 
 
 def _shaft(draw, entries, speed, wide):
-    """Put a shaft in lobes at a place, or under a load from small to hardly carried; fill joined lobes."""
+    """Put a shaft in lobes at a place, or under a load from small to hardly carried; feed it."""
     geometry, oil = entries["geometry"], entries["lubricant"]
     if speed and draw(st.booleans()):
         radius, clearance = (float(geometry[key].split()[0]) for key in ("radius", "clearance"))
         scale = float(oil["viscosity"].split()[0]) * abs(speed) * radius / clearance**2
-        entries["load"] = {"angle": f"{draw(part(-180, 180))!r} deg", "pressure": f"{scale * draw(number(0.01, 3))!r} Pa"}
+        entries["load"] = {
+            "angle": f"{draw(part(-180, 180))!r} deg",
+            "pressure": f"{scale * draw(number(0.01, 3))!r} Pa",
+        }
     else:
         room, turned = 1 - geometry["preload"], draw(part(0.0, 6.283))
         size = room * draw(part(0.0, 0.95))
@@ -329,8 +332,14 @@ def _shaft(draw, entries, speed, wide):
     if not wide and draw(st.integers(0, 3)) == 0:
         slope = 0.3 * float(geometry["clearance"].split()[0]) / float(geometry["width"].split()[0])
         geometry["misalignment"] = [f"{slope * draw(part(-1.0, 1.0))!r} rad" for _ in range(2)]
-    if "arc" not in geometry and oil["cavitation_pressure"] == "0.0 Pa":
-        oil["cavitation_pressure"] = "-100000.0 Pa"
+    if "arc" in geometry and geometry["lobes"] > 1:
+        boundary = draw(_boundary(wide))
+        if boundary["inlet"].get("theta", 1.0) >= 1:
+            entries["boundary"] = {key: one for key, one in boundary.items() if key != "outlet"}
+    elif "arc" in geometry:
+        entries["boundary"] = draw(_boundary(wide))
+    elif oil["cavitation_pressure"] == "0.0 Pa":
+        entries["boundary"] = {"sides": {"low": "1e5 Pa", "high": "1e5 Pa"}}
 
 
 def _sector(draw, length, film, rise):

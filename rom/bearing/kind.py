@@ -16,6 +16,7 @@ from roughfilm.contact.foundation.units import Quantity, to_si
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.geometry.shapes import SHAPES
+from roughfilm.rom.bearing.moving.over_time import UNITS as COLUMNS_OVER_TIME
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES, RoughSurface
 from roughfilm.rom.bearing.scene import Bearing, BearingMotion
@@ -265,8 +266,15 @@ KIND = Kind(
     lawless=squeezed,
     omitted=omitted,
     missing=missing,
-    files=frozenset({"table", "surface", "thickness"}),
-    lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
+    files=frozenset({"table", "surface", "thickness", "file"}),
+    lists=frozenset(
+        {
+            ("roughness", "spacing"),
+            ("roughness", "surface", "size"),
+            ("roughness", "surface", "points"),
+            *(("motion", "over_time", name) for name in COLUMNS_OVER_TIME),
+        }
+    ),
     faults=validation_faults,
     replaces={
         "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
@@ -285,6 +293,7 @@ KIND = Kind(
         "roughness.surface": ("digest", "spacing"),
         "roughness.table": ("digest",),
         "geometry.thickness": ("digest",),
+        "motion.over_time.file": ("digest",),
         "load.pressure": ("force", "force_per_width"),
         "load.force": ("pressure", "force_per_width"),
         "load.force_per_width": ("pressure", "force"),

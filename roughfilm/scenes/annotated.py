@@ -161,6 +161,8 @@ def sample_of(key: str, node: Node) -> object:
     if "const" in node:
         return node["const"]
     optional = _examples()["optional"]
+    if node.get("type") == "array" and f"{key}[]" in optional:
+        return optional[f"{key}[]"]
     if key in optional:
         return optional[key]
     if "enum" in node:

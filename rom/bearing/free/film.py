@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.free.walls import bearing_at
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
 from roughfilm.rom.bearing.geometry.rigid import MovingWall, RigidWall
@@ -57,8 +58,8 @@ class FreeFilm:
     def free(self) -> NDArray[np.bool_]:
         """Whether each coordinate is sought: the shaft under a load, and pads without a given tilt."""
         geometry = self.scene.geometry
-        assert isinstance(geometry, MovingWall)
-        return np.where(self.wall.turns, not geometry.tilted, self.scene.load is not None)
+        tilted = isinstance(geometry, MovingWall) and geometry.tilted
+        return np.where(self.wall.turns, not tilted, self.scene.load is not None)
 
     @cached_property
     def load(self) -> Array:
@@ -119,6 +120,7 @@ def free_film(
     *,
     film: Callable[[Bearing], Problem] = Bearing.problem,
     ruptures: bool = True,
+    wall: RigidWall | None = None,
 ) -> FreeFilm:
     """The film of a bearing on about ``cells`` equal cells along and across.
 
@@ -126,12 +128,16 @@ def free_film(
     ----------
     film : film(scene), the problem that the model solves.
     ruptures : whether the film cavitates.
+    wall : the coordinates of the wall; by default those of a shaft in lobes or of a pad about a pivot.
     """
-    geometry = _started(scene)
-    problem = film(scene.moved(geometry.at(geometry.wall.place)))
-    even = _even(scene, geometry, problem.shape)
-    across = "slope_y" in geometry.wall.names and (even or problem.shape.wide)
-    wall = geometry.wall.first(2) if across else geometry.wall
+    if wall is None:
+        moving = _started(scene)
+        wall, placed = moving.wall, scene.moved(moving.at(moving.wall.place))
+    else:
+        placed = bearing_at(scene, wall.place)
+    problem = film(placed)
+    even = _even(scene, problem.shape)
+    wall = wall.first(2) if "slope_y" in wall.names and (even or problem.shape.wide) else wall
     modes, shaped = wall.normals, problem.shape.thickness
     at_rest = replace(
         problem,
@@ -168,12 +174,12 @@ def _mirrored(function: Callable[[Array, Array], Values], ends: float) -> Callab
     return lambda x, y: function(ends - x, y)
 
 
-def _even(scene: Bearing, geometry: MovingWall, shape: Shape) -> bool:
+def _even(scene: Bearing, shape: Shape) -> bool:
     """Whether the film has a width and is symmetric about the middle of it in equilibrium."""
-    sides, load = scene.boundary.sides, scene.load
+    geometry, sides, load = scene.geometry, scene.boundary.sides, scene.load
     rough = scene.roughness is not None and shape.roughness is None
     turning = load is not None and load.moment_x != 0
-    even = geometry.symmetric and in_the_middle(scene.supply_patches, shape.across)
+    even = isinstance(geometry, MovingWall) and geometry.symmetric and in_the_middle(scene.supply_patches, shape.across)
     return even and sides.low == sides.high and not (shape.wide or rough or turning)
 
 
@@ -189,7 +195,8 @@ def _half(whole: Problem) -> Problem:
 def _gaps(scene: Bearing) -> tuple[Inflow, ...]:
     """The gaps between lobes, in which the pressure is that of the inlet."""
     geometry = scene.geometry
-    assert isinstance(geometry, MovingWall)
+    if not isinstance(geometry, MovingWall):
+        return ()
     length = scene.geometry.length
     edge, pressure = AT_EDGE * length, scene.inlet_pressure - scene.lubricant.cavitation_pressure
 
@@ -209,7 +216,8 @@ def load_of_scene(scene: Bearing) -> Array:
     size = 0.0 if scene.load_pressure is None else scene.load_pressure * scene.nominal_area
     if isinstance(geometry, Pivoted | PivotedSector):
         return geometry.forces(size, (0.0, 0.0) if load is None else (load.moment_x, load.moment_y))
-    assert isinstance(geometry, Lobes)
+    if not isinstance(geometry, Lobes):
+        return np.array([-size])
     force = np.zeros(len(geometry.wall.names))
     if load is not None:
         force[:2] = size * np.cos(load.angle), size * np.sin(load.angle)

@@ -134,10 +134,27 @@ class Lobes(Shaft, MovingWall):
     @property
     def least_film(self) -> float:
         """The least film thickness at the eccentricity, m; negative where the shaft reaches into the bore."""
+        return float(min(self.thickness(x, y).min() for x, y in self._samples()))
+
+    def least_films(self, eccentricity: Array) -> Array:
+        """The least film thickness, m, at positions of the shaft over the clearance, shape (2, n), without tilts."""
+        along, up = self.clearance * eccentricity[..., None]
+        return np.asarray(
+            np.min(
+                [
+                    (self.bore(x, y) - along * np.cos(self.angle(x)) - up * np.sin(self.angle(x))).min(axis=-1)
+                    for x, y in self._samples()
+                ],
+                axis=0,
+            )
+        )
+
+    def _samples(self) -> Iterator[tuple[Array, Array]]:
+        """Positions on both sides at which the least film is sought."""
         inside = np.linspace(JOINT, self.turn - JOINT, SAMPLES)
         x = self.radius * np.concatenate([self.begins(lobe) + inside for lobe in range(self.lobes)])
-        sides = [0.0] if self.width is None else [0.0, self.width]
-        return float(min(self.thickness(x, np.full_like(x, side)).min() for side in sides))
+        for side in [0.0] if self.width is None else [0.0, self.width]:
+            yield x, np.full_like(x, side)
 
     def at_film(self, film: float) -> Self:
         """The bearing with its shaft moved along its eccentricity, or down, to another least film thickness, m."""

@@ -14,6 +14,7 @@ from roughfilm.rom.cavitation.motion.bands import Bands
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import BALANCE_ROUNDOFF, Linear
+from roughfilm.rom.cavitation.relaxation import relaxed
 
 DIFFERENCE = 1e-6
 """Change of the film thickness over the least one, for derivatives by the coordinates."""
@@ -26,6 +27,13 @@ FORCE_TOLERANCE = 1e-9
 
 NEAR_LINEAR, MIN_PASSABLE = 0.5, 1e-3
 """Relative change by which the flow through a restrictor may differ from a linear one in a step, and the least part."""
+SWEEPS, SWEEPS_OF_LINE = 5, 20
+"""Relaxation sweeps after a step that changed the kind of a node, in the plane and on a line.
+
+In the plane they follow a step only if it changed fewer nodes than all before, since steps and sweeps may otherwise
+move nodes to and fro; and everywhere only if no storage is negative, so that the balances form an M-function.
+"""
+
 LEAST_FLOW = 1e-3
 """Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
 
@@ -112,11 +120,22 @@ class Trial:
     largest: float = field(init=False)
     columns: Array | None = None
 
-    def evaluate(self) -> Self:
-        """Evaluate the balances and their derivatives; nodes behind restrictors keep theirs."""
+    def sample(self) -> Self:
+        """Sample the film at the coordinates."""
         film, drive = self.film, self.drive
         self.faces = film.faces(self.place)
-        self.network = net = film.network(self.faces, self.pressures, speed=drive.speed, storage=drive.storage)
+        self.network = film.network(self.faces, self.pressures, speed=drive.speed, storage=drive.storage)
+        return self
+
+    def relax(self) -> None:
+        """Relax the unknowns of the nodes, which moves fronts over many nodes, where a Newton step moves them by one."""
+        sweeps = SWEEPS_OF_LINE if self.network.shape[1] == 1 else SWEEPS
+        state = relaxed(self.network, self.film.problem, State(pressure=self.pressure, fill=self.fill), sweeps)
+        self.pressure, self.fill, self.kind = state.pressure, state.fill, kinds(self.network, state)
+
+    def evaluate(self) -> Self:
+        """Evaluate the balances and their derivatives; nodes behind restrictors keep theirs."""
+        film, net = self.film, self.network
         self.kind = np.where(net.fixed, np.int8(FIXED), np.where(self.kind == FIXED, np.int8(FILM), self.kind))
         self.pressure = np.where(net.fixed, net.pressure, self.pressure)
         self.fill = np.where(self.kind == CAVITY, self.fill, 1.0)
@@ -179,8 +198,8 @@ class Trial:
         for column, number in enumerate(free):
             step = np.zeros(self.place.size)
             step[number] = DIFFERENCE * least / float(self.film.reach[number])
-            ahead = replace(self, place=self.place + step).evaluate().linear.balance
-            behind = replace(self, place=self.place - step).evaluate() if central else self
+            ahead = replace(self, place=self.place + step).sample().evaluate().linear.balance
+            behind = replace(self, place=self.place - step).sample().evaluate() if central else self
             columns[..., column] = (ahead - behind.linear.balance) / ((2 if central else 1) * step[number])
         return columns
 
@@ -283,10 +302,15 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         If the iteration does not converge.
     """
     trial = trial_at(film, start, drive)
-    free, whole = np.flatnonzero(drive.free), True
-    residual = force_residual = np.inf
+    free, whole, line = np.flatnonzero(drive.free), True, film.grid.shape[1] == 1
+    residual = force_residual = fewest = np.inf
+    changed = 0
     for iteration in range(limit + 1):
         with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
+            trial.sample()
+            if film.ruptures and 0 < changed < fewest and trial.network.storage.min() >= 0:
+                fewest = np.inf if line else changed
+                trial.relax()
             trial.evaluate()
         rest = trial.rest
         unbalanced = max(float(np.abs(rest).max()), float(np.abs(trial.inflow_excess).max(initial=0.0)))
@@ -316,8 +340,7 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         part = _admissible(film, trial.faces.thickness, moved) * _passable(trial, pressures)
         trial.place = trial.place + part * moved
         trial.pressures[list(film.restricted)] += part * pressures
-        _advance(trial, part * change)
-        whole = part == 1
+        changed, whole = _advance(trial, part * change), part == 1
         if not whole or iteration % COLUMNS_KEPT == COLUMNS_KEPT - 1:
             trial.columns = None
     finite = np.isfinite(residual + force_residual)
@@ -368,12 +391,12 @@ def _admissible(film: MovingFilm, thickness: Array, moved: Array) -> float:
     return float(min(1.0, MAX_APPROACH / max(float(closing.max()), MAX_APPROACH)))
 
 
-def _advance(trial: Trial, change: Array) -> None:
-    """Add the change to the unknowns of the nodes, which may change their kind."""
+def _advance(trial: Trial, change: Array) -> int:
+    """Add the change to the unknowns of the nodes; returns how many nodes changed their kind."""
     if trial.film.ruptures:
-        advance(*(values.reshape(-1) for values in (trial.kind, trial.pressure, trial.fill, change)))
-    else:
-        trial.pressure += np.where(trial.kind == FILM, change, 0.0)
+        return int(advance(*(values.reshape(-1) for values in (trial.kind, trial.pressure, trial.fill, change))))
+    trial.pressure += np.where(trial.kind == FILM, change, 0.0)
+    return 0
 
 
 def kinds(network: Network, state: State) -> NDArray[np.int8]:

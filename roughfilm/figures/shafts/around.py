@@ -19,6 +19,9 @@ from roughfilm.words.scales import scales_of
 CLEARANCE = 0.22
 """Clearance in the drawing over the radius of the shaft."""
 
+LEAST_ATTITUDE = 5.0
+"""Attitude angle below which its number is not written, degrees."""
+
 SHELL = 0.06
 """Thickness of the shell in the drawing over the radius of the shaft."""
 
@@ -32,9 +35,18 @@ def around(scene: Bearing, results: Mapping[str, Result], reference: str, styles
     The film is drawn in proportion to its thickness, by the reference model; the pressure above ambient, in proportion
     to its magnitude, outside of the shell.
     """
+    figure, axes = new_figure((9.4, 6.6))
+    draw(axes, scene, results, reference, styles)
+    figure.legend(loc="outside right upper", fontsize=8)
+    return svg(figure)
+
+
+def draw(
+    axes: Axes, scene: Bearing, results: Mapping[str, Result], reference: str, styles: Mapping[str, Style]
+) -> None:
+    """Draw the bore, the shaft, the pressure around them and the load of a scene."""
     geometry, shown = scene.geometry, results[reference]
     assert isinstance(geometry, Lobes)
-    figure, axes = new_figure((9.4, 6.6))
     axes.set(aspect="equal")
     axes.set_axis_off()
     shaft = np.linspace(0, 2 * np.pi, 361)
@@ -57,8 +69,6 @@ def around(scene: Bearing, results: Mapping[str, Result], reference: str, styles
         axes.plot(*_places(angle, height), color=style.colour, linestyle=style.line, linewidth=1.4, label=name)
     _marks(axes, scene, shown, moved, outside)
     axes.plot([], [], " ", label=f"largest pressure: {scale.number(largest)} {scale.unit}")
-    figure.legend(loc="outside right upper", fontsize=8)
-    return svg(figure)
 
 
 def _shell(axes: Axes, geometry: Lobes, shown: Result, moved: Array) -> float:
@@ -139,6 +149,8 @@ def _attitude(axes: Axes, centre: Array, load: float, attitude: float) -> None:
     turned = (line - load + 180) % 360 - 180
     begin, end = (load, load + turned) if turned > 0 else (load + turned, load)
     axes.add_patch(Arc(tuple(centre), 0.9, 0.9, theta1=begin, theta2=end, color="#525252", linewidth=0.9))
+    if attitude < LEAST_ATTITUDE:
+        return
     between = np.radians((begin + end) / 2)
     axes.annotate(
         f"{attitude:.0f}°",
