@@ -37,6 +37,9 @@ ALIGNING = 1e-7
 MAX_MOVE = 0.25
 """Largest move of a shaft or of the edge of a pad in a step, over the clearance and its distance."""
 
+SHORT_STEP = 1e-3
+"""Time step over that time up to which a longer move is not refused: nothing resists a shaft that leaves a film."""
+
 SETTLED = 1e-3
 """Move in the last step, over the clearance, up to which the motion has ended."""
 
@@ -112,7 +115,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) ->
         except ConvergenceError:
             following = None
         move = np.inf if following is None else _move(film, instant, following)
-        if following is None or move > MAX_MOVE:
+        if following is None or (move > MAX_MOVE and step > SHORT_STEP * time):
             step /= GROWTH**2
             if step < 1e-6 * time:
                 break
