@@ -364,7 +364,7 @@ class Bearing(Scene):
 
     def _can_be_joined(self, pieces: str) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
-        if self.wide:
+        if self.wide and not self.supply:
             raise ValueError(
                 f"geometry.width: is missing, but {pieces} are fed through their sides; give a width, or an arc that "
                 "leaves gaps"
@@ -381,8 +381,8 @@ class Bearing(Scene):
         theta = self.boundary.inlet.theta
         if theta is not None and theta < 1:
             raise ValueError(
-                f"boundary.inlet.theta: got {theta!r} for the gaps between lobes, which are full; give at least 1, or a "
-                "pressure"
+                f"boundary.inlet.theta: got {theta!r} for the gaps between lobes, which are full; give at least 1, "
+                "or a pressure"
             )
         if self.boundary.outlet != Outlet():
             raise ValueError(

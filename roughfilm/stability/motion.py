@@ -119,7 +119,7 @@ class Found:
     apart : distance of the place from the known one over the least film.
     again : error of the load that the independent solver finds at this place, over the load; None in bores with gaps.
     film, finer : least film that was found, and on cells half as large, m.
-    uncertainty : uncertainty of the first as the result states it, m.
+    uncertainty : uncertainty of the first as the result states it, m; None if it is unknown.
     iterations : Newton steps on all grids.
     """
 
@@ -127,7 +127,7 @@ class Found:
     again: float | None
     film: float
     finer: float
-    uncertainty: float
+    uncertainty: float | None
     iterations: int
 
 
@@ -157,7 +157,7 @@ def found(bore: Mapping[str, Any], width: float, eccentricity: float, cells: int
         again=_again(loaded, place, load, resolution),
         film=film,
         finer=finer["film_min"].value,
-        uncertainty=result["film_min"].uncertainty or 0.0,
+        uncertainty=result["film_min"].uncertainty,
         iterations=result.numerics.iterations,
     )
 
@@ -201,14 +201,16 @@ def judged(answer: Found) -> Judgement:
     if answer.again is not None and abs(answer.again) > LOAD_TOLERANCE:
         faults.append(f"another solver finds a load that differs by {answer.again:.3g}")
     error = abs(answer.finer / answer.film - 1)
-    if abs(answer.finer - answer.film) > answer.uncertainty:
-        faults.append(
-            f"the film differs from that on a finer grid by {error:.3g}, its uncertainty is "
-            f"{answer.uncertainty / answer.film:.3g}"
-        )
+    reported = not faults and answer.uncertainty is None
+    if answer.uncertainty is None:
+        faults.append("the coarser grid has no equilibrium, so that the uncertainty is unknown")
+    elif abs(answer.finer - answer.film) > answer.uncertainty:
+        bar = answer.uncertainty / answer.film
+        faults.append(f"the film differs from that on a finer grid by {error:.3g}, its uncertainty is {bar:.3g}")
     return Judgement(
         iterations=answer.iterations,
         right=not faults,
+        reported=reported,
         error=error,
         numbers={"apart": answer.apart, "film": answer.film},
         message="; ".join(faults),
@@ -307,7 +309,7 @@ def settled_again(jump: float, step: float, cells: int) -> Moved:
     apart = np.abs(path[-1].now.place - rest.place) / film.wall.unit
     return Moved(
         error=float(apart.max()),
-        allowed=STEP_ERROR,
+        allowed=STEP_ERROR * 2 * math.pi,
         steps=len(path),
         iterations=sum(one.instant.iterations for one in path),
     )
@@ -417,7 +419,8 @@ MOTION = StabilityMap(
     "velocity. Then shafts without an equilibrium.",
     judge=f"The known place, which must come back to {SAME_PLACE:g} of the least film; in bores without gaps the "
     f"load of this place by the solver of given films, which may differ by {LOAD_TOLERANCE:g}; and the least film on "
-    "cells half as large, from which it may differ by its uncertainty, and which gives the error. Motions are compared "
+    "cells half as large, from which it may differ by its uncertainty, and which gives the error; it is inaccurate where the uncertainty is "
+    "unknown. Motions are compared "
     f"with those by steps {STEP_ERROR / REFERENCE_ERROR:g} times as exact: the place may differ by the allowed error "
     f"of a step times the way at the scale of the velocities, the force by {FORCE_ERROR:.0%}; after twenty turns the "
     "place is that of the equilibrium. Iterations are Newton steps, of a motion those of a time step.",

@@ -171,8 +171,11 @@ def _leaves(force: Array) -> InputError:
 
 def _rate(film: FreeFilm) -> float:
     """The rate at which the shaft turns, rad/s, or at which the load would close the clearance at rest."""
-    scene = film.scene
-    return max(abs(scene.motion.speed) / scene.geometry.length * 2 * np.pi, 1e-6)
+    scene, length = film.scene, film.scene.geometry.length
+    if scene.motion.speed:
+        return abs(scene.motion.speed) / length * 2 * np.pi
+    squeezed = (scene.load_pressure or 0.0) / scene.lubricant.viscosity * (float(film.wall.unit[0]) / length) ** 2
+    return max(squeezed, 1e-6)
 
 
 def holding(film: FreeFilm, force: Array) -> Array:

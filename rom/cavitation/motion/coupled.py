@@ -15,6 +15,7 @@ from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import BALANCE_ROUNDOFF, Linear
 from roughfilm.rom.cavitation.relaxation import relaxed
+from roughfilm.rom.cavitation.restricted import first_pressures
 
 DIFFERENCE = 1e-6
 """Change of the film thickness over the least one, for derivatives by the coordinates."""
@@ -27,6 +28,7 @@ FORCE_TOLERANCE = 1e-9
 
 NEAR_LINEAR, MIN_PASSABLE = 0.5, 1e-3
 """Relative change by which the flow through a restrictor may differ from a linear one in a step, and the least part."""
+
 SWEEPS, SWEEPS_OF_LINE = 5, 20
 """Relaxation sweeps after a step that changed the kind of a node, in the plane and on a line.
 
@@ -118,6 +120,7 @@ class Trial:
     network: Network = field(init=False)
     linear: Linear = field(init=False)
     largest: float = field(init=False)
+    factors: Bands | None = None
     columns: Array | None = None
 
     def sample(self) -> Self:
@@ -128,7 +131,7 @@ class Trial:
         return self
 
     def relax(self) -> None:
-        """Relax the unknowns of the nodes, which moves fronts over many nodes, where a Newton step moves them by one."""
+        """Relax the unknowns of the nodes, which moves fronts over many nodes; a Newton step may move them by one."""
         sweeps = SWEEPS_OF_LINE if self.network.shape[1] == 1 else SWEEPS
         state = relaxed(self.network, self.film.problem, State(pressure=self.pressure, fill=self.fill), sweeps)
         self.pressure, self.fill, self.kind = state.pressure, state.fill, kinds(self.network, state)
@@ -148,7 +151,7 @@ class Trial:
         self.largest = net.linearise(known, self.pressure, self.fill, laws, parts) or 1.0
         for bank, rest in zip(net.banks(self.kind), net.banks(parts[0]), strict=True):
             settle_bank(bank, rest)
-        self.linear = Linear(self.kind, mobility[0], *parts)
+        self.linear, self.factors = Linear(self.kind, mobility[0], *parts), None
         return self
 
     @property
@@ -214,8 +217,9 @@ class Trial:
         film, known = self.film, (self.kind >= FIXED)[..., None]
         within = [film.covered[number] for number in film.restricted]
         columns = [self.linear.image(nodes.astype(float))[..., None] for nodes in within]
-        bands = Bands(self.linear, known[..., 0], periodic=self.network.periodic[0])
-        change = bands.solve(np.where(known, 0.0, np.concatenate([sources, *columns], axis=-1)))
+        if self.factors is None:
+            self.factors = Bands(self.linear, known[..., 0], periodic=self.network.periodic[0])
+        change = self.factors.solve(np.where(known, 0.0, np.concatenate([sources, *columns], axis=-1)))
         if not within:
             return Response(change=change, pressures=np.zeros((0, sources.shape[-1])))
         count = sources.shape[-1]
@@ -264,6 +268,26 @@ def _solved(matrix: Array, right: Array) -> Array:
             "motion: the film does not resist the motion of its wall; give a mass, or a start near the equilibrium",
             outcome=Outcome.DIVERGED,
         ) from None
+
+
+def full_film(film: MovingFilm, place: Array) -> Instant:
+    """A full film at cavitation pressure and given coordinates, from which an iteration starts."""
+    faces = film.faces(place)
+    pressures = first_pressures(film.inflows, film.covered, None)
+    net = film.network(faces, pressures, speed=film.problem.speed)
+    state = State(pressure=np.where(net.fixed, net.pressure, 0.0), fill=np.ones(net.shape))
+    return Instant(
+        place=place,
+        pressures=pressures,
+        state=state,
+        kind=kinds(net, state),
+        faces=faces,
+        network=net,
+        balance=np.zeros(net.shape),
+        residual=np.inf,
+        force_residual=np.inf,
+        iterations=0,
+    )
 
 
 def trial_at(film: MovingFilm, instant: Instant, drive: Drive) -> Trial:

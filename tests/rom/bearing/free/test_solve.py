@@ -65,7 +65,7 @@ def test_a_shaft_that_turns_back_is_the_mirror_image():
 
 @pytest.mark.parametrize("pads", [{}, {"pivot": 0.5, "tilts": ["0.2 mrad", "0.1 mrad"]}])
 def test_a_given_shaft_that_turns_back_is_the_mirror_image(pads):
-    """Mirrored in the vertical plane, in which the second pad, above, and the first one, below, are their own images."""
+    """Mirrored in the vertical plane, in which both pads, below and above, are their own images."""
     tables = {"cells": 32, "load": None}
     forth = solved(GROOVED | pads | {"eccentricity": [0.3, -0.4]}, **tables)
     turned = {"tilts": ["-0.2 mrad", "-0.1 mrad"]} if pads else {}
