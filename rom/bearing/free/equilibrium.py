@@ -37,7 +37,10 @@ ALIGNING = 1e-7
 MAX_MOVE = 0.25
 """Largest move of a shaft or of the edge of a pad in a step, over the clearance and its distance."""
 
-SETTLED = 1e-3
+SHORT_STEP = 1e-3
+"""Time step over that time up to which a longer move is not refused: nothing resists a shaft that leaves a film."""
+
+SETTLED = 1e-4
 """Move in the last step, over the clearance, up to which the motion has ended."""
 
 FARTHEST = 100.0
@@ -75,13 +78,18 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
         )
     force = film.load if load is None else load
     if start is not None:
-        try:
-            instant = _moved(film, start, force, 0.0, tolerance)
-        except ConvergenceError:
-            pass
+        near, last = start, MAX_MOVE
+        while last > SETTLED:
+            try:
+                instant = _moved(film, near, force, 0.0, tolerance)
+            except ConvergenceError:
+                break
+            move = _move(film, near, instant)
+            if move > last:
+                break
+            near, last = instant, min(move, 0.5 * last)
         else:
-            if _move(film, start, instant) <= MAX_MOVE:
-                return instant
+            return near
     if start is None:
         start = film.first(film.wall.place)
         constant = unchanging(solved.problem)
@@ -112,7 +120,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) ->
         except ConvergenceError:
             following = None
         move = np.inf if following is None else _move(film, instant, following)
-        if following is None or move > MAX_MOVE:
+        if following is None or (move > MAX_MOVE and step > SHORT_STEP * time):
             step /= GROWTH**2
             if step < 1e-6 * time:
                 break
@@ -180,8 +188,9 @@ def holding(film: FreeFilm, force: Array) -> Array:
 
     A pad without pressure has no moment at any tilt. With the angle θ_p of its pivot and the place e of the shaft, its
     film is symmetric about the pivot but for the term -(e_t + R δ) sin(θ - θ_p) with e_t = e_y cos θ_p - e_x sin θ_p.
-    The stiffness opposes e_t + R δ, so that a pad that carries no load rests at the tilt nearest to alignment at which
-    its film carries nothing. It changes moments of pads that carry load by about ``ALIGNING``.
+    The stiffness opposes e_t + R δ by a moment on the pad, and by no force on the shaft, so that a pad that carries no
+    load rests at the tilt nearest to alignment at which its film carries nothing. It changes moments of pads that carry
+    load by about ``ALIGNING``.
     """
     geometry, unit = film.scene.geometry, film.wall.unit
     stiffness = np.zeros((unit.size, unit.size))
@@ -189,18 +198,18 @@ def holding(film: FreeFilm, force: Array) -> Array:
         for pad, angle in enumerate(geometry.pivots):
             tangent = np.zeros(unit.size)
             tangent[:2], tangent[2 + pad] = (-np.sin(angle), np.cos(angle)), geometry.radius
-            stiffness += np.outer(tangent, tangent)
+            stiffness[2 + pad] = geometry.radius * tangent
     return np.asarray(ALIGNING * _load_scale(film, force) / unit[0] * stiffness)
 
 
 def _held(film: FreeFilm, force: Array) -> Array:
-    """The stiffness of each coordinate against moves in a step, which has no force in equilibrium.
+    """The stiffness of each coordinate against moves in a step, which has no force in equilibrium; 0 without pads.
 
-    A shaft on a single pad that tilts has no force across it. A pad of a thrust bearing is held by its film alone.
+    A shaft on a single pad that tilts has no force across it.
     """
-    if not isinstance(film.scene.geometry, Shaft):
-        return np.zeros(film.wall.unit.size)
-    unit = film.wall.unit
+    unit, geometry = film.wall.unit, film.scene.geometry
+    if not isinstance(geometry, Lobes) or geometry.pivot is None:
+        return np.zeros(unit.size)
     return np.where(film.wall.turns, 0.0, HOLDING * _load_scale(film, force) / unit)
 
 

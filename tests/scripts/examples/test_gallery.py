@@ -337,6 +337,16 @@ def test_a_hydrostatic_pad_has_the_stiffness_of_its_restrictor() -> None:
     assert values["stiffness"]["orifice"][8] > 1.1 * values["stiffness"]["capillary"][8]
 
 
+def test_pads_tilt_until_their_centre_of_pressure_is_at_the_pivot() -> None:
+    values = values_of("bearings/pivot_of_a_pad")
+    at = np.interp(values["ratios"]["infinitely wide"], values["a"], values["centre"])
+    assert at == pytest.approx(values["pivots"], abs=1e-3)
+    for name, best in (("infinitely wide", 0.57), ("square", 0.6)):
+        film = values["films"][name]
+        assert values["pivots"][film.argmax()] == best
+        assert film[0] < 0.6 * film.max()
+
+
 def test_films_under_load_lie_on_the_curve_of_butenschoen() -> None:
     values = values_of("bearings/film_under_load")
     eccentricity = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95]

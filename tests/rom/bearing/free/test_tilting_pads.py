@@ -39,7 +39,7 @@ def settled(geometry, *, cells=(60, 12), **entries):
 
 @pytest.mark.parametrize(
     "geometry",
-    [FOUR | {"first": "-45 deg"}, FOUR, FOUR | {"preload": 0.4}, FIVE, FIVE | {"preload": 0.3, "first": "-54 deg"}],
+    [FOUR | {"first": "-45 deg"}, FOUR | {"preload": 0.4}, FIVE, FIVE | {"preload": 0.3, "first": "-54 deg"}],
 )
 def test_symmetric_pads_with_central_pivots_have_no_cross_coupling(geometry):
     """The shaft moves along the load, and slow motions across it meet no force along it (Lund 1964)."""
@@ -52,6 +52,17 @@ def test_symmetric_pads_with_central_pivots_have_no_cross_coupling(geometry):
     assert abs(stiffness[0, 1]) + abs(stiffness[1, 0]) < 1e-4 * stiffness[1, 1]
     assert abs(damping[0, 1]) + abs(damping[1, 0]) < 1e-4 * damping[1, 1]
     assert stiffness[1, 1] > 0 < damping[1, 1]
+
+
+def test_a_shaft_between_parallel_films_stays_in_the_middle():
+    """The pads beside a shaft without preload follow it: their films are parallel, and have no force across the load.
+
+    At this place their films begin to carry, so that there is no one stiffness.
+    """
+    instant = settled(FOUR)[1]
+    assert abs(instant.place[0]) < 1e-4 * CLEARANCE
+    assert instant.place[3] * RADIUS == pytest.approx(-instant.place[1], rel=1e-4)
+    assert instant.place[5] * RADIUS == pytest.approx(instant.place[1], rel=1e-4)
 
 
 def test_a_fine_grid_keeps_the_place_of_pads_without_a_load():
