@@ -426,9 +426,9 @@ MOTION = StabilityMap(
     "place is that of the equilibrium. Iterations are Newton steps, of a motion those of a time step.",
     resolution=48,
     resolution_meaning="cells along the film, with half as many across",
-    least=32,
+    least=48,
     most=128,
-    allowed="the films take 32 to 128 cells along",
+    allowed="the films take 48 to 128 cells along",
     solve=in_turn(probes),
     summary=summary,
 )

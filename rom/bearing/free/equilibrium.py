@@ -71,7 +71,7 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
         drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free)
         try:
             return settled(solved, start, drive, tolerance=tolerance)
-        except ConvergenceError:
+        except (ConvergenceError, FloatingPointError):
             pass
     if start is None:
         start = film.first(film.wall.place)
@@ -102,7 +102,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
         drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free, storage=storage)
         try:
             instant = settled(solved, instant, drive, tolerance=tolerance)
-        except ConvergenceError:
+        except (ConvergenceError, FloatingPointError):
             step /= GROWTH**2
             if step < 1e-6 * time:
                 break

@@ -134,9 +134,7 @@ def test_uncertainties_cover_the_numbers_on_a_finer_grid(curve):
 
 def test_a_mass_whose_limit_is_not_known_has_no_uncertainty():
     def on(cells, inverse):
-        return GridPoint(
-            cells=cells, numbers={}, whirl=Whirl(inverse_mass=inverse, frequency_squared=inverse * 1e4)
-        )
+        return GridPoint(cells=cells, numbers={}, whirl=Whirl(inverse_mass=inverse, frequency_squared=inverse * 1e4))
 
     numbers, errors = finished([on(64, 1e-3), on(32, 1.01e-3), on(16, 1.05e-3)], 10.0)
     assert numbers["critical_mass"] == pytest.approx(1000.0)
