@@ -7,7 +7,7 @@ import pytest
 from roughfilm.stability.form import MapOutcome, Probe
 from roughfilm.stability.motion import Found, Moved, judged, judged_motion, probes, summary
 
-FOUND = Found(apart=1e-9, again=1e-9, film=1e-5, finer=1.001e-5, uncertainty=2e-8, iterations=7)
+FOUND = Found(apart=1e-9, again=1e-9, idle=False, known=1e-5, film=1e-5, finer=1.001e-5, uncertainty=2e-8, iterations=7)
 
 
 def probe(group: str, row: str, column: str) -> Probe:
@@ -41,6 +41,9 @@ def test_a_place_is_wrong_where_it_is_another_one_or_its_uncertainty_too_small()
         answer = judged(replace(FOUND, **change))
         assert not answer.right, change
         assert not answer.reported
+    other = replace(FOUND, apart=1.0, idle=True, known=0.9e-5)
+    assert judged(other).right
+    assert not judged(replace(other, known=1.1e-5)).right
     unknown = judged(replace(FOUND, uncertainty=None))
     assert not unknown.right
     assert unknown.reported
