@@ -116,7 +116,10 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         values |= _of_shaft(scene.geometry, scene_positions(solution), force)
         if any(scene.geometry.misalignment):
             values |= shaft_moments(scene.geometry, scene_positions(solution), grid.y, force)
-        values["film_min_angle"] = (math.degrees(float(scene.geometry.angle(np.array(least.x)))), "deg")
+        values["film_min_angle"] = (
+            math.degrees(math.remainder(float(scene.geometry.angle(np.array(least.x))), 2 * math.pi)),
+            "deg",
+        )
         if not scene.geometry.single:  # films of several lobes have no one beginning
             values = {name: value for name, value in values.items() if name not in ("film_start", "rupture")}
     elif isinstance(scene.geometry, Tilting):

@@ -82,7 +82,7 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
         while last > SETTLED:
             try:
                 instant = _moved(film, near, force, 0.0, tolerance)
-            except ConvergenceError:
+            except (ConvergenceError, FloatingPointError):
                 break
             move = _move(film, near, instant)
             if move > last:
@@ -117,7 +117,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) ->
         last = step >= LAST_STEP * time
         try:
             following = _moved(film, instant, force, 0.0 if last else 1 / step, tolerance)
-        except ConvergenceError:
+        except (ConvergenceError, FloatingPointError):
             following = None
         move = np.inf if following is None else _move(film, instant, following)
         if following is None or (move > MAX_MOVE and step > SHORT_STEP * time):

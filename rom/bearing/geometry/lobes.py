@@ -70,7 +70,8 @@ class Lobes(Shaft, MovingWall):
     def _fits(self) -> Self:
         if self.arc is not None and self.arc > 2 * math.pi / self.lobes * (1 + FITTING):
             raise ValueError(
-                f"arc: got {self.arc!r} rad; {self.lobes} lobes have at most {2 * math.pi / self.lobes!r} rad each"
+                f"arc: got {math.degrees(self.arc):.6g} degrees; {self.lobes} equal lobes have at most "
+                f"{360 / self.lobes:.6g} degrees each"
             )
         if any(self.misalignment) and self.width is None:
             raise ValueError("misalignment: got one for an infinitely wide bearing; give it a width")

@@ -83,6 +83,14 @@ def test_what_enters_from_the_gaps_leaves_into_them_or_through_the_sides():
     close(result, finer, *flows)
 
 
+def test_flows_around_corners_of_grooves_whose_pressure_jumps_are_infinite_and_said_so():
+    fed = solved(GROOVED, boundary={"inlet": {"pressure": "1 bar"}})
+    assert fed["inlet_flow"].uncertainty is None
+    assert fed["film_min"].uncertainty is not None
+    assert sum("the flows through both edges are infinite" in line for line in fed.warnings) == 2
+    assert solved(GROOVED).warnings == ()
+
+
 def test_the_uncertainties_cover_a_finer_film():
     coarse, fine = solved(GROOVED | {"preload": 0.3}), solved(GROOVED | {"preload": 0.3}, cells=192)
     names = [name for name, one in coarse.quantities.items() if np.isfinite(one.uncertainty or np.inf)]
