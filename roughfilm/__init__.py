@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from roughfilm.interface.cases import collect_study as collect_study
     from roughfilm.interface.cases import write_case as write_case
     from roughfilm.interface.cases import write_study as write_study
+    from roughfilm.interface.curves import dynamics as dynamics
     from roughfilm.interface.curves import effects as effects
     from roughfilm.interface.curves import leakage_curve as leakage_curve
     from roughfilm.interface.curves import stribeck as stribeck
@@ -57,7 +58,7 @@ else:
         "contact.foundation.units": ("Quantity",),
         "contact.surfaces.surface": ("Surface",),
         "interface.cases": ("collect_study", "write_case", "write_study"),
-        "interface.curves": ("effects", "leakage_curve", "stribeck"),
+        "interface.curves": ("dynamics", "effects", "leakage_curve", "stribeck"),
         "interface.fitting": ("fit_description",),
         "interface.motion": ("march",),
         "interface.results": ("load_result", "save"),

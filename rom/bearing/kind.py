@@ -22,7 +22,7 @@ from roughfilm.rom.bearing.roughness import ROUGHNESSES, RoughSurface
 from roughfilm.rom.bearing.scene import Bearing, BearingMotion
 from roughfilm.rom.bearing.supply.tables import SUPPLIES
 from roughfilm.rom.bearing.totals.reported import REPORTED
-from roughfilm.rom.ladder.kind import Kind, Omission
+from roughfilm.rom.ladder.kind import InTime, Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.lubricants.laws import LAWS
 
@@ -218,6 +218,24 @@ def missing(scene: Bearing, model: Any) -> float:
     return missing(scene, model)
 
 
+def steady(scene: Bearing) -> Bearing:
+    """The scene at the time of its largest load, if the load changes in time; else the scene."""
+    if scene.motion.over_time is None:
+        return scene
+    from roughfilm.rom.bearing.march.quasi_static import steady  # slow to import
+
+    return steady(scene)
+
+
+def in_time(scene: Bearing, within: float) -> InTime | None:
+    """What a load over time means for a scene; None for a scene without one."""
+    if scene.motion.over_time is None:
+        return None
+    from roughfilm.rom.bearing.march.quasi_static import in_time  # slow to import
+
+    return in_time(scene, within)
+
+
 def window(scene: Bearing) -> Surface | None:
     """The rough surface of one of the walls; None if the roughness is another one."""
     return scene.roughness.read() if isinstance(scene.roughness, RoughSurface) else None
@@ -263,6 +281,8 @@ KIND = Kind(
     symbols=NUMBERS,
     excluded="inertia, heat and deformation of the bodies as a whole",
     composed=composed,
+    steady=steady,
+    in_time=in_time,
     lawless=squeezed,
     omitted=omitted,
     missing=missing,

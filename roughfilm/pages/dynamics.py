@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from roughfilm.figures import dynamics as figures
 from roughfilm.figures.base import svg
+from roughfilm.figures.motion import dynamics as figures
 from roughfilm.pages.render import render
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint
 from roughfilm.rom.bearing.dynamics.store import dimensionless_of

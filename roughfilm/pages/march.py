@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from roughfilm.figures import march as figures
 from roughfilm.figures.base import svg
+from roughfilm.figures.motion import march as figures
 from roughfilm.pages.render import render
 from roughfilm.rom.bearing.march.solve import March
 from roughfilm.words.march import headline, rows_of

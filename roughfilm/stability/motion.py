@@ -392,17 +392,18 @@ def probes(cells: int) -> Iterator[Probe]:
         row, column = f"B/D = {width:g}", f"ε = {eccentricity:g}"
         yield Probe(group=name, row=row, column=column, ask=ask, judge=judged)
     for jump, step in product(JUMPS, STEPS):
-        place = {"row": f"load × {jump:g}", "column": f"step ≤ {step:g} turns"}
-        ask = partial(after_jump, jump, step, cells)
-        yield Probe(group="a turn after a jump of the load", **place, ask=ask, judge=judged_motion)
+        row, column = f"load × {jump:g}", f"step ≤ {step:g} turns"
+        turn = partial(after_jump, jump, step, cells)
+        yield Probe(group="a turn after a jump of the load", row=row, column=column, ask=turn, judge=judged_motion)
     for jump, step in product(JUMPS, STEPS[:2]):
-        place = {"row": f"load × {jump:g}", "column": f"step ≤ {step:g} turns"}
-        ask = partial(settled_again, jump, step, cells)
-        yield Probe(group="twenty turns after a jump of the load", **place, ask=ask, judge=judged_motion)
+        row, column = f"load × {jump:g}", f"step ≤ {step:g} turns"
+        later = partial(settled_again, jump, step, cells)
+        group = "twenty turns after a jump of the load"
+        yield Probe(group=group, row=row, column=column, ask=later, judge=judged_motion)
     for approach, step in product(APPROACHES, STEPS[1:]):
-        place = {"row": f"v/(cω) = {approach:g}", "column": f"step ≤ {step:g} of the motion"}
-        ask = partial(squeezed, approach, step, cells)
-        yield Probe(group="a shaft that is moved", **place, ask=ask, judge=judged_motion)
+        row, column = f"v/(cω) = {approach:g}", f"step ≤ {step:g} of the motion"
+        moved = partial(squeezed, approach, step, cells)
+        yield Probe(group="a shaft that is moved", row=row, column=column, ask=moved, judge=judged_motion)
     for name, (bore, tables) in REFUSED.items():
         refused = partial(_solved, bore, tables, cells)
         yield Probe(group="no equilibrium", row=name, column=MODEL, ask=refused, judge=judged, refused=True)

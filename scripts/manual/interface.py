@@ -16,6 +16,7 @@ SUBJECTS: Mapping[str, str] = {
     "interface.windows": "Windows of a surface",
     "interface.fitting": "Descriptions of measured surfaces",
     "interface.curves": "Curves and effects",
+    "interface.motion": "Bearings in time",
     "rom.ladder": "Classes of scenes and results",
     "contact.": "Quantities, surfaces and errors",
 }

@@ -131,7 +131,7 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
     if isinstance(scene.geometry, Shaft):
         whirl = rigid_whirl(stiffness, damping) if kept.all() else whirl_of(at, rotation)
     return GridPoint(
-        cells=math.prod(count for count in film.solved.grid.shape if count > 1) ** 0.5, numbers=numbers, whirl=whirl
+        cells=math.prod(count for count in film.whole.grid.shape if count > 1) ** 0.5, numbers=numbers, whirl=whirl
     )
 
 

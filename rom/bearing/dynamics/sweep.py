@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.brief import brief
@@ -12,7 +13,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, grid_point, rotation_of
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
-from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
 from roughfilm.rom.cavitation.motion.coupled import Instant
 from roughfilm.rom.ladder.model import Progress, silent
@@ -25,6 +26,9 @@ COARSENING = (4, 2, 1)
 
 TOLERANCE = 1e-9
 """Residual at which a film is solved."""
+
+MAX_FILM_RATIO = 3.0
+"""Largest ratio of the least films of a start and of the equilibrium that Newton's method finds from it."""
 
 ONSET_TOLERANCE = 1e-4
 """Relative error of the speed of onset at which its search stops."""
@@ -163,6 +167,15 @@ def dynamic_point(
     cpu = time.process_time()
     solved = list(_equilibria(scene, resolution, started))
     points = [grid_point(film, instant, frequency_ratio) for film, instant in reversed(solved)]
+    if points[0].numbers.get("stiffness", 1.0) <= 0:
+        raise InputError(
+            "load: the equilibrium of the pad is not stable; move the pivot, or take another load or speed"
+        )
+    if points[0].numbers["film_min"] <= 0:
+        raise InputError(
+            "load: the walls touch between the nodes of the grid; lower the load, or raise the speed or the viscosity"
+        )
+    points = [point for point in points if point.numbers["film_min"] > 0]
     speed, (film, instant) = abs(scene.motion.speed), solved[-1]
     rotation = rotation_of(scene, speed)
     numbers, uncertainty = finished(points, rotation)
@@ -191,7 +204,10 @@ def _equilibria(scene: Bearing, resolution: int, started: dict[int, Instant]) ->
         if start is None and coarse is not None:
             start = refined(*coarse, film)
         try:
-            instant = equilibrium(film, start, tolerance=TOLERANCE)
+            with np.errstate(all="ignore"):  # pressures that are not finite end the iteration with an error
+                instant = equilibrium(film, start, tolerance=TOLERANCE)
+                if start is not None and _far(start, instant):
+                    instant = equilibrium(film, None, tolerance=TOLERANCE)
         except (InputError, ConvergenceError) as error:
             refused += isinstance(error, InputError)
             if coarsening == COARSENING[-1] or refused > 1:
@@ -200,6 +216,12 @@ def _equilibria(scene: Bearing, resolution: int, started: dict[int, Instant]) ->
         started[coarsening] = instant
         coarse = film, instant
         yield film, instant
+
+
+def _far(start: Instant, found: Instant) -> bool:
+    """Whether the least film is so far from that of the start that it may be an equilibrium that is not stable."""
+    ratio = float(found.faces.thickness.min() / start.faces.thickness.min())
+    return not 1 / MAX_FILM_RATIO < ratio < MAX_FILM_RATIO
 
 
 def onset_of(
@@ -276,10 +298,10 @@ def _checked(
 
 def check_bearing(scene: Bearing) -> None:
     """Raise InputError for a bearing whose walls do not move freely, or may touch."""
-    if not isinstance(scene.geometry, Lobes):
+    if not isinstance(scene.geometry, MovingWall):
         raise InputError(
             f"geometry.shape: got {scene.geometry.shape!r}; stiffness and damping are those of a wall that moves "
-            "freely, take 'lobes'"
+            "freely, take 'lobes' or a pad about its pivot"
         )
     if scene.asperities is not None or scene.roughness is not None:
         place = "asperities" if scene.asperities is not None else "roughness"
@@ -288,5 +310,4 @@ def check_bearing(scene: Bearing) -> None:
 
 def mass_of(scene: Bearing) -> float | None:
     """The mass of the rotor in the bearing, kg; None if the scene has none."""
-    mass = getattr(getattr(scene, "body", None), "mass", None)
-    return None if mass is None else float(mass)
+    return None if scene.body is None else scene.body.mass

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.equilibrium.expected import fed_film
 from roughfilm.rom.bearing.free.walls import bearing_at
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
@@ -17,19 +18,18 @@ from roughfilm.rom.bearing.geometry.rigid import MovingWall, RigidWall
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.supply.patches import in_the_middle
 from roughfilm.rom.cavitation.grid import doubled, grid
-from roughfilm.rom.cavitation.motion.coupled import Instant, kinds
+from roughfilm.rom.cavitation.motion.coupled import Instant, full_film
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import State, Values
 from roughfilm.rom.cavitation.problem import Inflow, Problem
-from roughfilm.rom.cavitation.restricted import first_pressures
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import Level, Solution, mirrored, mirrored_inflow
 
 WEDGE_LOAD = 0.16
 """Load of an infinitely wide pad over η u L²/h², whose film narrows to about half its thickness."""
 
-MAX_FIRST_FILM = 1e-2
-"""Largest film over the length of a pad at which the search for an equilibrium begins."""
+FIRST_FILM, MAX_FIRST_FILM = 1e-6, 1e-2
+"""Smallest and largest film over the length of a pad at which the search for an equilibrium begins."""
 
 AT_EDGE = 1e-9
 """Distance from the edge of a groove, over the length of the film, up to which a node lies on it."""
@@ -68,24 +68,8 @@ class FreeFilm:
         return load_of_scene(self.scene)[: self.wall.place.size] / ((self.scene.geometry.width or 1.0) if line else 1.0)
 
     def first(self, place: Array) -> Instant:
-        """A full film at ambient pressure and given coordinates, from which an iteration starts."""
-        film = self.solved
-        faces = film.faces(place)
-        pressures = first_pressures(film.inflows, film.covered, None)
-        net = film.network(faces, pressures, speed=film.problem.speed)
-        state = State(pressure=np.where(net.fixed, net.pressure, 0.0), fill=np.ones(net.shape))
-        return Instant(
-            place=place,
-            pressures=pressures,
-            state=state,
-            kind=kinds(net, state),
-            faces=faces,
-            network=net,
-            balance=np.zeros(net.shape),
-            residual=np.inf,
-            force_residual=np.inf,
-            iterations=0,
-        )
+        """A full film at given coordinates, from which an iteration starts."""
+        return full_film(self.solved, place)
 
     def widened(self, values: Values) -> Values:
         """Values over the whole width from those of the film that is solved."""
@@ -235,5 +219,6 @@ def _started(scene: Bearing) -> Lobes | Pivoted | PivotedSector:
         return geometry
     share = 1.0 if geometry.width is None else 1 / (1 + (geometry.length / geometry.width) ** 2)
     sheared = scene.lubricant.viscosity * abs(scene.motion.speed) * geometry.length
-    film = min(math.sqrt(WEDGE_LOAD * share * sheared / pressure), MAX_FIRST_FILM * geometry.length)
+    film = max(math.sqrt(WEDGE_LOAD * share * sheared / pressure), fed_film(scene), FIRST_FILM * geometry.length)
+    film = min(film, MAX_FIRST_FILM * geometry.length)
     return geometry.started(film, reverse=scene.motion.speed < 0)

@@ -116,6 +116,13 @@ class Lobes(Shaft, MovingWall):
         return 2 * math.pi * lobe / self.lobes
 
     @property
+    def pivots(self) -> Array:
+        """The angles of the pivots of the pads, rad; none without pivots."""
+        if self.pivot is None:
+            return np.zeros(0)
+        return self.start + self.pivot * self.turn + np.array([self.begins(lobe) for lobe in range(self.lobes)])
+
+    @property
     def film(self) -> float | None:
         """The least film thickness, m; None if a load determines it."""
         return None if self.eccentricity is None else self.least_film

@@ -211,7 +211,7 @@ class Observer:
         """The flows that enter through each place, m³/s, the volume at cavitation density, its rate and the imbalance.
 
         The flow through the sides counts outwards, as that through the outlet. The imbalance is that of all flows with
-        the storage, over the largest of them.
+        the storage, over the largest of them and of those along the film.
         """
         film, net = self.film.solved, instant.network
         areas, excess = film.grid.areas, film.problem.compression(instant.state.pressure)[0]
@@ -233,5 +233,6 @@ class Observer:
             flow if name.startswith(("supply", "inlet")) else -flow
             for name, flow in zip(self._places, flows, strict=True)
         )
-        largest = max([abs(rate), *map(abs, flows)])
+        passing = film.sides * float(np.abs(net.couette * filled).sum(axis=1).max())
+        largest = max([passing, abs(rate), *map(abs, flows)])
         return flows, stored, rate, (entering - rate) / largest if largest > 0 else 0.0

@@ -12,13 +12,18 @@ from roughfilm.rom.bearing.march.course import Duty, course_of, film_at, started
 from roughfilm.rom.bearing.march.numbers import Observer
 from roughfilm.rom.cavitation.motion.march import Known, Moving, march
 from roughfilm.rom.cavitation.network import State
-from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 
 CHUNK = 200
 """Number of steps that are kept together."""
 
+FIRST_STEP = 0.1
+"""First time step over the largest one of a wall without mass, which jumps where its first forces do not balance."""
+
 CLOSEST = 1e-4
 """Film thickness over the clearance, or over the first film, at which the walls count as touching."""
+
+TOLERANCE = 1e-10
+"""Residual at which a step is solved."""
 
 Saved = Mapping[str, Array]
 """All numbers from which a march goes on, by name."""
@@ -112,7 +117,7 @@ def run(
     known: Sequence[Chunk] = (),
     keep: Keep = lambda _chunk: None,
     progress: Callable[[float, str], None] = lambda _fraction, _words: None,
-    tolerance: float = RESIDUAL_TOLERANCE,
+    tolerance: float = TOLERANCE,
 ) -> Series:
     """March a bearing to the last time.
 
@@ -134,6 +139,8 @@ def run(
         moving = moving_of(film, chunks[-1].state)
     else:
         moving = started(duty, film, tolerance=tolerance)
+        if duty.body.mass is None:
+            moving = replace(moving, following=FIRST_STEP * numerics.step)
         first = Snapshot(time=moving.now.time, fields=observer.fields(moving.instant))
         chunks.append(
             Chunk(
@@ -143,9 +150,10 @@ def run(
             )
         )
         keep(chunks[0])
-    for chunk in _chunks(duty, film, observer, moving, numerics, tolerance, progress):
-        keep(chunk)
-        chunks.append(chunk)
+    if moving.now.time < numerics.end * (1 - 1e-12):
+        for chunk in _chunks(duty, film, observer, moving, numerics, tolerance, progress):
+            keep(chunk)
+            chunks.append(chunk)
     return Series(
         units=observer.units,
         rows=np.concatenate([chunk.rows for chunk in chunks]),

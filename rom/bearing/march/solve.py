@@ -48,6 +48,10 @@ TIME_SAFETY = 2.0
 PATH_SAFETY = 1.0
 """Least uncertainty of the extremes of a path over its differences to those of the other marches."""
 
+FRICTIONS = frozenset({"friction_mean", "torque_mean", "power_loss_mean"})
+FRICTION_SAFETY = 0.3
+"""Least relative uncertainty of these means over the difference of the path."""
+
 PARTS = {"fine": 0.6, "coarse": 0.25, "coarser": 0.15}
 """The marches, with the part of the work of each."""
 
@@ -241,6 +245,10 @@ def _uncertainties(
     unit = getattr(duty.scene.geometry, "clearance", None) or float(fine["film_min"][0])
     least = dict.fromkeys(("eccentricity_max", "orbit_width", "orbit_height"), PATH_SAFETY * path)
     least |= {"film_min": PATH_SAFETY * path * unit, "cavitated_fraction_max": 1 / fine_cells}
+    film, pressure = (summary.quantities[name].value for name in ("film_min", "pressure_max"))
+    least["pressure_max"] = abs(pressure) * least["film_min"] / film
+    for name in FRICTIONS & summary.quantities.keys():
+        least[name] = FRICTION_SAFETY * path * abs(summary.quantities[name].value)
     return {name: max(one, least.get(name, 0.0)) for name, one in found.items()}
 
 

@@ -263,13 +263,11 @@ def checked_table(columns: Mapping[str, tuple[str, Sequence[float]]], period: fl
                 f"eccentricity_x: got the distance {max(sizes):.4g} clearances in row {sizes.index(max(sizes)) + 1}; "
                 "positions are over the clearance, give less"
             )
-    time, values = (
-        np.array(times, dtype=float),
-        {name: np.array(column[1], dtype=float) for name, column in others.items()},
-    )
+    time = np.array(times, dtype=float)
+    arrays = {name: np.array(column[1], dtype=float) for name, column in others.items()}
     if period is not None:
-        time, values = _closed(time, values, period)
-    return Table(time=time, columns=values, units={name: column[0] for name, column in others.items()}, period=period)
+        time, arrays = _closed(time, arrays, period)
+    return Table(time=time, columns=arrays, units={name: column[0] for name, column in others.items()}, period=period)
 
 
 def _refuse_double(others: Mapping[str, Any]) -> None:

@@ -84,7 +84,7 @@ def _count(features: int, least: int, most: int) -> int:
 def _thinnest(shape: Shape, x: Array, y: Array, *, turned: bool) -> LeastFilm:
     """The thinnest of the films at positions x and y outside of gaps; the first along, nearest to the middle across."""
     h = np.where(shape.is_idle(x)[:, None], np.inf, shape.thickness(*np.meshgrid(x, y, indexing="ij")))
-    thin = h <= h.min() * (1 + SAME)
+    thin = h <= h.min() + SAME * abs(h.min())
     columns = np.flatnonzero(thin.any(axis=1))
     i = columns[-1 if turned else 0]
     rows = np.flatnonzero(thin[i])

@@ -6,7 +6,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, finite_arithmetic
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, settle_bank
 from roughfilm.rom.cavitation.discretise import Faces
@@ -15,6 +15,7 @@ from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import BALANCE_ROUNDOFF, Linear
 from roughfilm.rom.cavitation.relaxation import relaxed
+from roughfilm.rom.cavitation.restricted import first_pressures
 
 DIFFERENCE = 1e-6
 """Change of the film thickness over the least one, for derivatives by the coordinates."""
@@ -27,6 +28,7 @@ FORCE_TOLERANCE = 1e-9
 
 NEAR_LINEAR, MIN_PASSABLE = 0.5, 1e-3
 """Relative change by which the flow through a restrictor may differ from a linear one in a step, and the least part."""
+
 SWEEPS, SWEEPS_OF_LINE = 5, 20
 """Relaxation sweeps after a step that changed the kind of a node, in the plane and on a line.
 
@@ -36,6 +38,9 @@ move nodes to and fro; and everywhere only if no storage is negative, so that th
 
 LEAST_FLOW = 1e-3
 """Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
+
+LEAST_PART = 1e-3
+"""Least size of the parts of the force on a coordinate over that on the whole film: pads may carry nothing."""
 
 COLUMNS_KEPT = 5
 """Number of steps for which the derivatives by the coordinates are kept: they change little from step to step."""
@@ -115,6 +120,7 @@ class Trial:
     network: Network = field(init=False)
     linear: Linear = field(init=False)
     largest: float = field(init=False)
+    factors: Bands | None = None
     columns: Array | None = None
 
     def sample(self) -> Self:
@@ -125,7 +131,7 @@ class Trial:
         return self
 
     def relax(self) -> None:
-        """Relax the unknowns of the nodes, which moves fronts over many nodes, where a Newton step moves them by one."""
+        """Relax the unknowns of the nodes, which moves fronts over many nodes; a Newton step may move them by one."""
         sweeps = SWEEPS_OF_LINE if self.network.shape[1] == 1 else SWEEPS
         state = relaxed(self.network, self.film.problem, State(pressure=self.pressure, fill=self.fill), sweeps)
         self.pressure, self.fill, self.kind = state.pressure, state.fill, kinds(self.network, state)
@@ -145,7 +151,7 @@ class Trial:
         self.largest = net.linearise(known, self.pressure, self.fill, laws, parts) or 1.0
         for bank, rest in zip(net.banks(self.kind), net.banks(parts[0]), strict=True):
             settle_bank(bank, rest)
-        self.linear = Linear(self.kind, mobility[0], *parts)
+        self.linear, self.factors = Linear(self.kind, mobility[0], *parts), None
         return self
 
     @property
@@ -180,9 +186,12 @@ class Trial:
 
     @property
     def sizes(self) -> Array:
-        """The sum of the sizes of the parts of the force on each coordinate; 1 without any force."""
+        """The sum of the sizes of the parts of the force on each coordinate, bounded below; 1 without any force."""
         film = self.film
-        sizes = np.abs(self.pressure - film.ambient).ravel() @ np.abs(film.weights) + np.abs(self.drive.force)
+        above = np.abs(self.pressure - film.ambient)
+        sizes = above.ravel() @ np.abs(film.weights) + np.abs(self.drive.force)
+        least = LEAST_PART * film.sides * float((above * film.grid.areas).sum()) * film.reach
+        sizes = np.maximum(sizes, least)
         return np.where(sizes > 0, sizes, 1.0)
 
     def by_coordinates(self, *, central: bool = False) -> Array:
@@ -208,8 +217,9 @@ class Trial:
         film, known = self.film, (self.kind >= FIXED)[..., None]
         within = [film.covered[number] for number in film.restricted]
         columns = [self.linear.image(nodes.astype(float))[..., None] for nodes in within]
-        bands = Bands(self.linear, known[..., 0], periodic=self.network.periodic[0])
-        change = bands.solve(np.where(known, 0.0, np.concatenate([sources, *columns], axis=-1)))
+        if self.factors is None:
+            self.factors = Bands(self.linear, known[..., 0], periodic=self.network.periodic[0])
+        change = self.factors.solve(np.where(known, 0.0, np.concatenate([sources, *columns], axis=-1)))
         if not within:
             return Response(change=change, pressures=np.zeros((0, sources.shape[-1])))
         count = sources.shape[-1]
@@ -260,6 +270,26 @@ def _solved(matrix: Array, right: Array) -> Array:
         ) from None
 
 
+def full_film(film: MovingFilm, place: Array) -> Instant:
+    """A full film at cavitation pressure and given coordinates, from which an iteration starts."""
+    faces = film.faces(place)
+    pressures = first_pressures(film.inflows, film.covered, None)
+    net = film.network(faces, pressures, speed=film.problem.speed)
+    state = State(pressure=np.where(net.fixed, net.pressure, 0.0), fill=np.ones(net.shape))
+    return Instant(
+        place=place,
+        pressures=pressures,
+        state=state,
+        kind=kinds(net, state),
+        faces=faces,
+        network=net,
+        balance=np.zeros(net.shape),
+        residual=np.inf,
+        force_residual=np.inf,
+        iterations=0,
+    )
+
+
 def trial_at(film: MovingFilm, instant: Instant, drive: Drive) -> Trial:
     """The unknowns at an instant, not yet evaluated."""
     return Trial(
@@ -273,6 +303,7 @@ def trial_at(film: MovingFilm, instant: Instant, drive: Drive) -> Trial:
     )
 
 
+@finite_arithmetic("motion")
 def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float, limit: int = ITERATIONS) -> Instant:
     """The instant at which inflow equals outflow at every node and behind every restrictor, and all forces balance.
 

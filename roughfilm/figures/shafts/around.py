@@ -137,8 +137,9 @@ def _marks(axes: Axes, scene: Bearing, shown: Result, moved: Array, outside: flo
         ends = np.radians((115, 155) if scene.motion.speed > 0 else (155, 115))
         begin, end = (tuple(centre + 0.8 * np.array([np.cos(one), np.sin(one)])) for one in ends)
         bend = "arc3,rad=0.2" if scene.motion.speed > 0 else "arc3,rad=-0.2"
-        arrow = {"arrowstyle": "-|>", "mutation_scale": 12, "color": "#08519c", "connectionstyle": bend}
-        axes.add_patch(FancyArrowPatch(begin, end, **arrow))
+        axes.add_patch(
+            FancyArrowPatch(begin, end, arrowstyle="-|>", mutation_scale=12, color="#08519c", connectionstyle=bend)
+        )
     axes.set(xlim=(-reach - 0.2, reach + 0.2), ylim=(-reach - 0.2, reach + 0.2))
 
 

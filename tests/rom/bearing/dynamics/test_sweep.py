@@ -18,10 +18,11 @@ from roughfilm.rom.bearing.dynamics.store import (
     write_csv,
     write_ross,
 )
-from roughfilm.rom.bearing.dynamics.sweep import at_operation, dynamics
-from roughfilm.rom.bearing.dynamics.whirl import Whirl
+from roughfilm.rom.bearing.dynamics.sweep import at_operation, dynamics, mass_of
+from roughfilm.rom.bearing.dynamics.whirl import Whirl, rigid_whirl
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import free_film
+from roughfilm.rom.bearing.moving.body import Body
 from roughfilm.rom.ladder.model import silent
 from roughfilm.rom.ladder.scene import read_scene
 
@@ -49,21 +50,23 @@ def swept(bearing, *speeds, pressures=(PRESSURE,), **more):
 
 @pytest.fixture(scope="module")
 def curve():
-    (found,) = swept(scene(), 5.0, 10.0, 20.0, 40.0, mass=2000.0)
+    (found,) = swept(scene(), 5.0, 10.0, 20.0, 60.0, mass=2000.0)
     return found
 
 
-def test_stiffness_is_the_difference_of_forces_and_the_force_of_the_equilibrium_is_the_load(curve):
-    """Loads that differ a little move the equilibrium by K⁻¹ δW: no derivative of the code takes part."""
-    bearing = at_operation(scene(), 10.0, PRESSURE)
+@pytest.mark.parametrize("geometry", [GROOVED, PADS], ids=["grooves", "pads"])
+def test_loads_that_differ_a_little_move_the_shaft_by_the_inverse_of_the_stiffness(geometry):
+    """No derivative of the code takes part; pads that tilt follow, which is the stiffness of slow motions."""
+    bearing = at_operation(scene(geometry), 10.0, PRESSURE)
     film = free_film(bearing, (CELLS, CELLS // 2))
     start = equilibrium(film, None, tolerance=1e-12)
     moved = []
     for axis in range(2):
-        change = 1e-4 * np.linalg.norm(film.load) * np.eye(2)[axis]
+        change = 1e-4 * np.linalg.norm(film.load) * np.eye(film.load.size)[axis]
         ends = [equilibrium(film, start, tolerance=1e-12, load=film.load + sign * change).place for sign in (1, -1)]
-        moved.append((ends[0] - ends[1]) / (2 * change[axis]))
-    point = curve.points[1]
+        moved.append((ends[0] - ends[1])[:2] / (2 * change[axis]))
+    (found,) = swept(scene(geometry), 10.0, frequency_ratio=0.0)
+    point = found.points[0]
     assert np.linalg.inv(np.transpose(moved)) == pytest.approx(point.stiffness, rel=1e-3, abs=1e-4 * point.load / 5e-5)
 
 
@@ -75,6 +78,18 @@ def test_damping_is_symmetric_and_whirl_is_near_half_of_the_rotation(curve):
     assert np.all(np.diff([point.numbers["critical_mass"] for point in curve.points]) < 0)
 
 
+def test_the_critical_mass_is_that_of_published_coefficients():
+    """Lund and Thomsen 1978, S = 0.991, as read in the literature tests of ROSS; x points along the load there."""
+    printed = rigid_whirl(np.array([[1.56, 7.29], [-2.16, 1.52]]), np.array([[14.66, 1.58], [1.58, 4.49]]))
+    bearing = scene()
+    pressure = 0.02 * 50 * 1e6 / 0.991
+    (found,) = swept(bearing, pressures=[pressure])
+    point = found.points[0]
+    scale = 5e-5 * point.rotation**2 / point.load
+    assert point.numbers["critical_mass"] * scale == pytest.approx(1 / printed.inverse_mass, rel=0.01)
+    assert point.numbers["whirl_ratio"] == pytest.approx(math.sqrt(printed.frequency_squared), rel=5e-3)
+
+
 def test_a_heavier_rotor_becomes_unstable_where_the_critical_mass_falls_to_its_own(curve):
     assert curve.points[2].rotation < curve.onset.rotation < curve.points[3].rotation
     (near,) = swept(scene(), curve.onset.rotation * 0.05)
@@ -84,6 +99,12 @@ def test_a_heavier_rotor_becomes_unstable_where_the_critical_mass_falls_to_its_o
     (heavy,) = swept(scene(), 5.0, mass=1e9)
     assert light.onset.rotation == math.inf
     assert math.isnan(heavy.onset.rotation)
+
+
+def test_the_mass_is_that_of_the_body_of_the_scene_and_has_no_part_in_the_points():
+    heavy = scene().model_copy(update={"body": Body(mass="40 kg")})
+    assert (mass_of(scene()), mass_of(heavy)) == (None, 40.0)
+    assert point_inputs(heavy, CELLS, 1.0).digest == point_inputs(scene(), CELLS, 1.0).digest
 
 
 def test_dimensionless_coefficients_depend_on_the_sommerfeld_number_alone(curve):
@@ -99,7 +120,7 @@ def test_dimensionless_coefficients_depend_on_the_sommerfeld_number_alone(curve)
 
 def test_a_shaft_that_turns_back_is_the_mirror_image_and_its_table_for_ross_is_the_same(curve, tmp_path):
     bearing = scene(speed="-3000 rpm")
-    (back,) = swept(bearing, 5.0, 10.0, 20.0, 40.0)
+    (back,) = swept(bearing, 5.0, 10.0, 20.0, 60.0)
     flip = np.diag([-1.0, 1.0])
     for one, other in zip(curve.points, back.points, strict=True):
         assert flip @ other.stiffness @ flip == pytest.approx(one.stiffness, rel=1e-6)
@@ -116,13 +137,24 @@ def numbers_of(path):
 
 
 def test_pads_that_tilt_have_little_cross_stiffness_and_carry_any_mass():
-    """Between two pads, the plane of the load is a symmetry but for the pivots, and pads take no moment."""
+    """Pads take no moment, so that no force turns round with the shaft; the load is between two pads."""
     (found,) = swept(scene(PADS))
     stiffness = found.points[0].stiffness
-    assert abs(stiffness[0, 1] - stiffness[1, 0]) < 0.05 * stiffness[1, 1]
+    assert stiffness[0, 1] == pytest.approx(stiffness[1, 0], rel=1e-3)
+    assert abs(stiffness[0, 1]) < 0.05 * stiffness[1, 1]
+    assert abs(found.points[0].numbers["attitude_angle"]) < 1
     assert found.points[0].numbers["critical_mass"] == math.inf
-    (static,) = swept(scene(PADS), frequency_ratio=0.0)
-    assert static.points[0].stiffness[1, 1] < stiffness[1, 1]
+
+
+def test_the_film_of_a_pad_about_its_pivot_is_as_the_root_of_the_speed_and_its_stiffness_as_load_over_film():
+    """W ∝ u/h² at the tilt over the film that the pivot sets."""
+    pad = {"shape": "pivoted", "length": "50 mm", "width": "50 mm", "pivot": [0.58, 0.5]}
+    (found,) = swept(scene(pad, speed="10 m/s"), 5.0, 10.0, 20.0, pressures=[8e5])
+    films = [point.numbers["film_min"] for point in found.points]
+    assert np.diff(np.log(films)) == pytest.approx(np.log(2) / 2, rel=1e-3)
+    for point in found.points:
+        ratio = point.numbers["stiffness"] * point.numbers["film_min"] / point.load
+        assert ratio == pytest.approx(found.points[0].stiffness[0, 0] * films[0] / found.points[0].load, rel=1e-3)
 
 
 def test_uncertainties_cover_the_numbers_on_a_finer_grid(curve):
@@ -146,13 +178,11 @@ def test_a_mass_whose_limit_is_not_known_has_no_uncertainty():
     assert (numbers["critical_mass"], errors["critical_mass"]) == (math.inf, math.inf)
 
 
-def test_speeds_without_an_equilibrium_are_left_out_and_said(curve):
+def test_speeds_without_an_equilibrium_are_left_out_and_said():
     (found,) = swept(scene(), 1e-3, 5.0)
     assert [point.speed for point in found.points] == [5.0]
     assert found.omitted[0].speed == 1e-3
     assert "no film above" in found.omitted[0].reason
-    with pytest.raises(InputError, match="no film above"):
-        swept(scene(), 1e-3)
 
 
 @pytest.mark.parametrize(
@@ -175,7 +205,7 @@ def test_numbers_out_of_range_are_refused(change, message):
 
 def test_other_shapes_are_refused():
     journal = {"shape": "journal", "radius": "50 mm", "clearance": "50 um", "width": "50 mm"}
-    with pytest.raises(InputError, match="geometry.shape: got 'journal'"):
+    with pytest.raises(InputError, match=r"geometry\.shape: got 'journal'"):
         dynamics(scene(journal), [1.0], [1e6])
 
 

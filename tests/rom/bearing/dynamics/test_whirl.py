@@ -52,11 +52,10 @@ def test_a_symmetric_stiffness_carries_any_mass_and_a_negative_one_none():
 
 
 def pads() -> tuple[np.ndarray, np.ndarray]:
-    """Stiffness and damping of a shaft and two pads, with eigenvalues to compare."""
-    rng = np.random.default_rng(3)
-    b = rng.normal(size=(4, 4))
-    k = rng.normal(size=(4, 4))
-    return k @ k.T + 2.0 * (k - k.T), b @ b.T + np.eye(4)
+    """Stiffness and damping of a shaft and two pads."""
+    between = np.array([[0.5, -0.3], [0.2, 0.6]])
+    stiffness = np.block([[K, between], [between.T, np.diag([2.0, 3.0])]])
+    return stiffness, np.block([[B, 0.5 * between], [0.5 * between.T, np.diag([1.0, 1.5])]])
 
 
 def test_condensed_pads_follow_without_force():
