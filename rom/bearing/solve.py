@@ -33,6 +33,7 @@ from roughfilm.rom.bearing.warnings import (
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio
 from roughfilm.rom.cavitation.evaluation.grids import grid_sequence, grid_warnings
 from roughfilm.rom.cavitation.evaluation.numerics import numerics_of
+from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Level, Solution, load_loops
 from roughfilm.rom.cavitation.solve import solve as balance
@@ -57,6 +58,7 @@ def solve(
     outputs: Outputs = FILM_OUTPUTS,
     searched: Callable[[Bearing], Searched] | None = None,
     films: FilmsOnGrid | None = None,
+    contact: Callable[[Bearing], ContactLaw] | None = None,
 ) -> Result:
     """Solve the film of a bearing on successively finer grids and estimate the uncertainty of its quantities.
 
@@ -70,6 +72,7 @@ def solve(
     outputs : the functions that evaluate the film.
     searched : searched(scene), the films among which that under a load is sought; by default those of a smooth wall.
     films : films(scene, cells), the films on a grid, of models with a contact load.
+    contact : contact(scene), the contact pressure over the film thickness, of these models.
 
     Raises
     ------
@@ -82,7 +85,8 @@ def solve(
     if isinstance(scene.geometry, Lobes):
         with one_time("start"):
             load_loops(scene.wide)
-        among = searched(scene) if searched is not None and scene.load is not None else None
+        law = None if contact is None else contact(scene)
+        among = searched(scene) if searched is not None and scene.load is not None and law is None else None
         wall, cpu = time.perf_counter(), working_time()
         found = _free(
             scene,
@@ -91,6 +95,7 @@ def solve(
             outputs,
             known_from=None if among is None else among.known_from,
             ruptures=ruptures,
+            contact=law,
             progress=progress,
         )
     elif scene.load is None:
@@ -193,6 +198,7 @@ def _free(
     *,
     known_from: float | None,
     ruptures: bool,
+    contact: ContactLaw | None,
     progress: Progress,
 ) -> _Found:
     """The film of a bearing whose wall moves freely."""
@@ -201,6 +207,7 @@ def _free(
         request.resolution,
         film=film,
         ruptures=ruptures,
+        contact=contact,
         tolerance=min(request.tolerance, FILM_RESIDUAL),
         progress=progress,
     )
@@ -213,7 +220,7 @@ def _free(
         known = at if known_from is None else at.moved(at.geometry.at_film(known_from))
         of_factors = outputs.factor_uncertainties(known, solution, quantities)
         if scene.load is not None:
-            step = FILM_STEP * at.geometry.thinnest
+            step = FILM_STEP * free.films[compared].solved.room(free.instants[compared].place)
             one = free.films[compared]
             moved = closer(one, free.instants[compared], -step, tolerance=FILM_RESIDUAL)
             others = outputs.quantities(placed(one, moved), one.solution(moved))

@@ -7,13 +7,14 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
 from roughfilm.rom.cavitation.motion.march import held
 from roughfilm.rom.cavitation.problem import unchanging
 
 FIRST_STEP = 0.2
-"""First time step over the time in which the shaft turns by a radian."""
+"""First time step over the time in which the shaft turns by a radian, or a load would squeeze a film out."""
 
 GROWTH = 4.0
 """Ratio of successive time steps that converge."""
@@ -29,6 +30,9 @@ HOLDING = 1e-9
 
 CLOSEST = 1e-4
 """Least film over the clearance below which no equilibrium is sought."""
+
+CLOSEST_OF_CONTACT = 2e-3
+"""Distance from the smallest known separation, over that of first contact, below which none is sought with contact."""
 
 
 def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load: Array | None = None) -> Instant:
@@ -46,7 +50,8 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     Raises
     ------
     InputError
-        If the film becomes thinner than ``CLOSEST`` times the clearance.
+        If the film becomes thinner than ``CLOSEST`` times the clearance, or the walls come nearly as close as their
+        contact pressure is known for.
     ConvergenceError
         If the motion does not settle.
     """
@@ -80,7 +85,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
     instant = settled(solved, start, given, tolerance=tolerance)
     if not free.any():
         return instant
-    time = 1 / _rate(film)
+    time = 1 / _rate(film, force)
     step = FIRST_STEP * time
     for _ in range(MAX_STEPS):
         last = step >= LAST_STEP * time
@@ -95,12 +100,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
             continue
         if last:
             return instant
-        least = float(instant.faces.thickness.min())
-        if least < CLOSEST * film.wall.unit[0]:
-            raise InputError(
-                f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; lower the load, or "
-                "raise the speed or the viscosity"
-            )
+        _check_room(film, instant, force)
         step *= GROWTH
     raise ConvergenceError(
         "load: the motion towards the equilibrium does not settle; take more cells, or another load",
@@ -109,10 +109,39 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
     )
 
 
-def _rate(film: FreeFilm) -> float:
-    """The rate at which the shaft turns, rad/s, or at which the load would close the clearance at rest."""
-    scene = film.scene
-    return max(abs(scene.motion.speed) / scene.geometry.length * 2 * np.pi, 1e-6)
+def _check_room(film: FreeFilm, instant: Instant, force: Array) -> None:
+    """Raise InputError if the walls have nearly reached the smallest film thickness that has a solution."""
+    contact, clearance = film.solved.contact, film.wall.unit[0]
+    least = CLOSEST * clearance if contact is None else CLOSEST_OF_CONTACT * (contact.touching - contact.closest)
+    if film.solved.room(instant.place) >= least:
+        return
+    size = f"{np.hypot(*force[:2]):.6g} N"
+    if contact is None:
+        raise InputError(
+            f"load: got {size}; no film above {instant.faces.thickness.min():.2g} m carries it; lower the load, or "
+            "raise the speed or the viscosity"
+        )
+    pressed = np.hypot(*film.solved.contact_at(instant.place).force[:2])
+    raise InputError(
+        f"load: got {size}; at a separation of {contact.closest:.4g} m, the smallest whose contact pressure is known, "
+        f"the asperities carry {pressed:.4g} N and the film too little; lower the load, or make a table with larger "
+        "loads"
+    )
+
+
+def _rate(film: FreeFilm, force: Array) -> float:
+    """The rate at which the shaft turns, rad/s, or at which the load would squeeze a film out at rest, if larger.
+
+    A load W per width closes a film in a time of about 12π η (R/c)² R/W.
+    """
+    scene, geometry = film.scene, film.scene.geometry
+    assert isinstance(geometry, Lobes)
+    width = 1.0 if film.whole.problem.shape.wide else geometry.width or 1.0
+    thinness = (geometry.clearance / geometry.radius) ** 2
+    squeezed = (
+        float(np.hypot(*force[:2])) * thinness / (12 * np.pi * scene.lubricant.viscosity * geometry.radius * width)
+    )
+    return max(abs(scene.motion.speed) / geometry.radius, squeezed)
 
 
 def _holding(film: FreeFilm, force: Array) -> Array:

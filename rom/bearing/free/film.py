@@ -13,6 +13,7 @@ from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import RigidWall
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.grid import grid
+from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Instant, kinds
 from roughfilm.rom.cavitation.motion.film import Inflow, MovingFilm
 from roughfilm.rom.cavitation.network import State, Values
@@ -108,6 +109,7 @@ def free_film(
     *,
     film: Callable[[Bearing], Problem] = Bearing.problem,
     ruptures: bool = True,
+    contact: ContactLaw | None = None,
 ) -> FreeFilm:
     """The film of a bearing on about ``cells`` equal cells along and across.
 
@@ -115,6 +117,7 @@ def free_film(
     ----------
     film : film(scene), the problem that the model solves.
     ruptures : whether the film cavitates.
+    contact : the contact pressure of the walls over the film thickness; None of walls that do not touch.
     """
     geometry = scene.geometry
     assert isinstance(geometry, Lobes)
@@ -142,6 +145,7 @@ def free_film(
         inflows=inflows,
         ambient=-scene.lubricant.cavitation_pressure,
         ruptures=ruptures,
+        contact=contact,
     )
     return FreeFilm(scene=scene, wall=wall, whole=whole, solved=_half(scene, whole, cells), turned=turned)
 

@@ -11,21 +11,25 @@ from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, settle_bank
 from roughfilm.rom.cavitation.discretise import Faces
 from roughfilm.rom.cavitation.motion.bands import Bands
+from roughfilm.rom.cavitation.motion.contact import ContactForce
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import Network, State
-from roughfilm.rom.cavitation.newton import Linear
+from roughfilm.rom.cavitation.newton import BALANCE_ROUNDOFF, Linear
 
 DIFFERENCE = 1e-6
-"""Change of the film thickness over the least one, for derivatives by the coordinates."""
+"""Change of the film thickness over the least distance from the smallest one, for derivatives by the coordinates."""
 
 MAX_APPROACH = 0.6
-"""Largest fraction of the film thickness at a node that one step may close."""
+"""Largest fraction of the distance from the smallest film thickness that one step may close."""
 
 FORCE_TOLERANCE = 1e-9
 """Net force on a coordinate over the sum of the sizes of its parts at which the iteration stops."""
 
 COLUMNS_KEPT = 5
 """Number of steps for which the derivatives by the coordinates are kept: they change little from step to step."""
+
+CLOSED = 1e-9
+"""Distance from the smallest film thickness over that at the start below which the iteration stops."""
 
 ITERATIONS = 40
 """Largest number of Newton steps."""
@@ -99,6 +103,7 @@ class Trial:
     fill: Array
     kind: NDArray[np.int8]
     faces: Faces = field(init=False)
+    contact: ContactForce = field(init=False)
     network: Network = field(init=False)
     linear: Linear = field(init=False)
     largest: float = field(init=False)
@@ -108,6 +113,7 @@ class Trial:
         """Evaluate the balances and their derivatives; nodes behind restrictors keep theirs."""
         film, drive = self.film, self.drive
         self.faces = film.faces(self.place)
+        self.contact = film.contact_at(self.place)
         self.network = net = film.network(self.faces, self.pressures, speed=drive.speed, storage=drive.storage)
         self.kind = np.where(net.fixed, np.int8(FIXED), np.where(self.kind == FIXED, np.int8(FILM), self.kind))
         self.pressure = np.where(net.fixed, net.pressure, self.pressure)
@@ -137,6 +143,19 @@ class Trial:
             given[row] = film.sides * float(self.linear.balance[film.covered[number]].sum()) - self._passed(number)[0]
         return given
 
+    def residual(self, tolerance: float) -> float:
+        """The largest of these and of the balances of the nodes, over the largest flow through a face.
+
+        If it is above the tolerance, the balances below the round-off of the pressures are left out: at rest, nothing
+        flows.
+        """
+        rest, excess = np.abs(self.rest), float(np.abs(self.inflow_excess).max(initial=0.0))
+        residual = max(float(rest.max()), excess) / self.largest
+        if residual <= tolerance:
+            return residual
+        rounding = BALANCE_ROUNDOFF * np.abs(self.linear.centre * self.pressure)
+        return max(float(rest[rest > rounding].max(initial=0.0)), excess) / self.largest
+
     def _passed(self, number: int) -> tuple[float, float]:
         """The flow through the restrictor of an inflow, m³/s, and minus its derivative by the pressure behind it."""
         inflow = self.film.inflows[number]
@@ -145,20 +164,20 @@ class Trial:
 
     @property
     def pull(self) -> Array:
-        """The forces on the coordinates besides that of the film."""
-        return np.asarray(self.drive.force - self.drive.stiffness @ self.place)
+        """The forces on the coordinates besides that of the film, with that of contact."""
+        return np.asarray(self.drive.force + self.contact.force - self.drive.stiffness @ self.place)
 
     @property
     def sizes(self) -> Array:
         """The sum of the sizes of the parts of the force on each coordinate; 1 without any force."""
         film = self.film
         parts = np.tensordot(np.abs(self.pressure - film.ambient), np.abs(film.weights), axes=2)
-        sizes = parts + np.abs(self.drive.force)
+        sizes = parts + self.contact.sizes + np.abs(self.drive.force)
         return np.where(sizes > 0, sizes, 1.0)
 
     def by_coordinates(self, *, central: bool = False) -> Array:
         """The derivatives of the balances by the free coordinates, in the last axis, by differences."""
-        least, free = float(self.faces.thickness.min()), np.flatnonzero(self.drive.free)
+        least, free = self.film.room(self.place), np.flatnonzero(self.drive.free)
         columns = np.zeros((*self.network.shape, free.size))
         for column, number in enumerate(free):
             step = np.zeros(self.place.size)
@@ -215,7 +234,7 @@ class Trial:
         if self.columns is None:
             self.columns = self.by_coordinates()
         moved = self.respond(-self.columns)
-        matrix = self.force_of(moved)[free] - self.drive.stiffness[np.ix_(free, free)]
+        matrix = self.force_of(moved)[free] - (self.drive.stiffness + self.contact.stiffness)[np.ix_(free, free)]
         net_force = (self.film.force(self.pressure) + self.pull + self.force_of(own)[:, 0])[free]
         places = _solved(matrix, -net_force)
         return Response(
@@ -268,13 +287,12 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         If the iteration does not converge.
     """
     trial = trial_at(film, start, drive)
-    free, whole = np.flatnonzero(drive.free), True
+    free, whole, open_by = np.flatnonzero(drive.free), True, CLOSED * film.room(trial.place)
     residual = force_residual = np.inf
     for iteration in range(limit + 1):
         with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
             trial.evaluate()
-        largest_rest = max(float(np.abs(trial.rest).max()), float(np.abs(trial.inflow_excess).max(initial=0.0)))
-        residual = largest_rest / trial.largest
+        residual = trial.residual(tolerance)
         net_force = np.abs(film.force(trial.pressure) + trial.pull) / trial.sizes
         force_residual = float(net_force[free].max(initial=0.0))
         if not np.isfinite(residual + force_residual):
@@ -295,30 +313,27 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         response, places = trial.step()
         moved = np.zeros(trial.place.size)
         moved[free] = places
-        part = _admissible(film, trial.faces.thickness, moved)
+        part = MAX_APPROACH / max(film.closing(trial.place, moved), MAX_APPROACH)
         trial.place = trial.place + part * moved
         trial.pressures[list(film.restricted)] += part * response.pressures[:, 0]
         _advance(trial, part * response.change[..., 0])
         whole = part == 1
+        if not whole and film.room(trial.place) < open_by:
+            residual = np.inf
+            break
         if not whole or iteration % COLUMNS_KEPT == COLUMNS_KEPT - 1:
             trial.columns = None
     finite = np.isfinite(residual + force_residual)
     reason = (
         f"the residual is {residual:.1e} and the relative net force {force_residual:.1e} after {limit} steps"
         if finite
-        else "the pressures diverge"
+        else "the pressures diverge, or the walls meet"
     )
     raise ConvergenceError(
         f"motion: {reason}; take more cells or smaller steps",
         outcome=Outcome.UNFINISHED if finite else Outcome.DIVERGED,
         iterations=limit,
     )
-
-
-def _admissible(film: MovingFilm, thickness: Array, moved: Array) -> float:
-    """The largest part, up to 1, of a change of the coordinates that closes no film by more than ``MAX_APPROACH``."""
-    closing = -(film.at_nodes @ moved) / thickness
-    return float(min(1.0, MAX_APPROACH / max(float(closing.max()), MAX_APPROACH)))
 
 
 def _advance(trial: Trial, change: Array) -> None:

@@ -250,8 +250,7 @@ def predicted(past: tuple[Known, ...], size: float) -> Array:
 def _open(film: MovingFilm, instant: Instant, guess: Array) -> Array:
     """The guess of the coordinates, moved back so far that no film closes by more than half."""
     moved = guess - instant.place
-    closing = float((-(film.at_nodes @ moved) / instant.faces.thickness).max())
-    return np.asarray(instant.place + min(1.0, 0.5 / max(closing, 0.5)) * moved)
+    return np.asarray(instant.place + 0.5 / max(film.closing(instant.place, moved), 0.5) * moved)
 
 
 def _error(past: tuple[Known, ...], course: Course, order: int) -> float:
