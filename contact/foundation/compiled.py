@@ -1,8 +1,8 @@
 """Decorators of numerical loops that numba compiles at their first call and caches on disk where that is possible.
 
 All loops run without the lock of the interpreter, so that threads run them at the same time. A division by zero gives
-an infinity or NaN, as in NumPy, and no exception. Sums may be reordered and products contracted; infinities and NaN
-keep their meaning.
+an infinity or NaN, as in NumPy, and no exception. Sums may be reordered and products contracted, except in loops that
+are ``unreordered``; infinities and NaN keep their meaning.
 """
 
 import gc
@@ -70,6 +70,9 @@ compiled: Any = partial(Loop, cache=True, _nrt=False)
 The option ``_nrt=False``, which is private to numba, omits the counting of references to arrays: for short rows the
 counting would take longer than the loop.
 """
+
+unreordered: Any = partial(compiled, fastmath=False)
+"""Decorator of a loop as ``compiled``, whose results equal those of the same operations of NumPy to the last bit."""
 
 called: Any = partial(compiled, no_cpython_wrapper=True)
 """Decorator of a loop that only compiled loops call; without an interface to Python it compiles faster."""

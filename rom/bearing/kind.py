@@ -18,7 +18,8 @@ from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.geometry.shapes import SHAPES
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES, RoughSurface
-from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.scene import Bearing, BearingMotion
+from roughfilm.rom.bearing.supply.tables import SUPPLIES
 from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
@@ -40,13 +41,14 @@ MIN_LOAD_OVER_FRICTION = 1e-3
 
 SYMBOLS = {"compression": "ϑ", "starvation": "θ", "slenderness": "B/L"}
 
-CHOSEN: Mapping[tuple[str, ...], Mapping[str, type[Part]]] = {
+CHOSEN: Mapping[tuple[str | None, ...], Mapping[str, type[Part]]] = {
     ("geometry",): SHAPES,
     ("lubricant", "compressibility"): LAWS,
     ("lubricant", "piezoviscosity"): LAWS,
     ("roughness",): ROUGHNESSES,
+    ("supply", None): SUPPLIES,
 }
-"""Tables of a scene whose classes depend on one of their keys."""
+"""Tables of a scene whose classes depend on one of their keys; None is the number of a table in a list."""
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
@@ -95,9 +97,13 @@ def _without_tags(path: Location) -> tuple[list[int | str], type[Part] | None]:
     """The place of an error in the file, and the class of its table if the table is a shape or a law."""
     for place, classes in CHOSEN.items():
         depth = len(place)
-        if tuple(path[:depth]) == place and len(path) > depth and path[depth] in classes:
-            return [*place, *path[depth + 1 :]], classes[str(path[depth])]
+        if _lies_in(path, place) and len(path) > depth and path[depth] in classes:
+            return [*path[:depth], *path[depth + 1 :]], classes[str(path[depth])]
     return list(path), None
+
+
+def _lies_in(path: Location, place: tuple[str | None, ...]) -> bool:
+    return len(path) >= len(place) and all(b in (None, a) for a, b in zip(path, place, strict=False))
 
 
 def validation_faults(error: ValidationError, _entries: Mapping[str, Any]) -> list[Fault]:
@@ -105,7 +111,7 @@ def validation_faults(error: ValidationError, _entries: Mapping[str, Any]) -> li
 
     def unknown(place: Location) -> tuple[str, str]:
         (*path, key), chosen = _without_tags(place)
-        inner = next((path[len(place) :] for place in CHOSEN if tuple(path[: len(place)]) == place), None)
+        inner = next((path[len(place) :] for place in CHOSEN if _lies_in(path, place)), None)
         return unknown_key(
             key, known_keys(Bearing, path) if chosen is None or inner is None else known_keys(chosen, inner)
         )
@@ -130,6 +136,7 @@ NUMBERS = {
     "texture_density": "texture density",
     "pocket_depth_ratio": "d/h",
     "pocket_length_ratio": "l/L",
+    "squeeze_number": "2VL/(uh)",
     "reynolds_number": "Re",
     "reduced_reynolds_number": "Re·h/L",
 }
@@ -137,8 +144,32 @@ NUMBERS = {
 
 
 def remarks(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
-    """The pressure at which the film ruptures, and the part of the whole bearing for which the quantities hold."""
-    return (*_rupture(entries, quantities), *_of_the_whole(entries, quantities))
+    """The approach of the walls, the pressure at which the film ruptures, and the part that the quantities hold for."""
+    return (*_approach(entries), *_rupture(entries, quantities), *_of_the_whole(entries, quantities))
+
+
+def squeezed(entries: Mapping[str, Any]) -> bool:
+    """Whether the walls of a scene approach each other or part; the error laws do not hold then."""
+    motion = entries["motion"]
+    return (motion.approach if isinstance(motion, BearingMotion) else _velocity(motion)) != 0
+
+
+def _velocity(motion: Mapping[str, Any]) -> float:
+    """The approach in the entries of a motion, m/s."""
+    return to_si(motion["approach"], "m/s") if "approach" in motion else 0.0
+
+
+def _approach(entries: Mapping[str, Any]) -> tuple[str, ...]:
+    """The velocity at which the walls approach each other, with what the filling of cavities does."""
+    approach = _velocity(entries["motion"])
+    if approach == 0:
+        return ()
+    speed = f"at {abs(approach):.4g} m/s"
+    if entries["geometry"]["shape"] == "journal":
+        moves = f"the shaft moves {'towards' if approach > 0 else 'away from'} its narrowest place {speed}"
+    else:
+        moves = f"the walls {'approach each other' if approach > 0 else 'part'} {speed}"
+    return (f"{moves} (motion.approach); the numbers hold at this film, and the filling of cavities does not change",)
 
 
 def _rupture(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
@@ -231,6 +262,7 @@ KIND = Kind(
     symbols=NUMBERS,
     excluded="inertia, heat and deformation of the bodies as a whole",
     composed=composed,
+    lawless=squeezed,
     omitted=omitted,
     missing=missing,
     files=frozenset({"table", "surface", "thickness"}),

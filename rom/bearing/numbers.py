@@ -40,12 +40,14 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     roughness_period : period of the roughness over the length, if the period is known.
     texture_density : fraction of the bearing that pockets cover.
     pocket_depth_ratio, pocket_length_ratio : depth of a pocket over h, and its length over that of the bearing.
+    squeeze_number : 2VL/(uh), the pressure scale of squeeze over that of sliding, if the walls approach each other;
+        infinite at rest. In the numbers above and below u + 2VL/h then takes the place of u.
     reynolds_number : ρuh/η, if the density is given.
     reduced_reynolds_number : ρuh²/(ηl), if the density is given; l is the shortest feature along the sliding direction.
     """
     scene = expected_scene(scene)
     geometry, lubricant, roughness = scene.geometry, scene.lubricant, scene.roughness
-    film, length, speed = geometry.thinnest, geometry.length, abs(scene.motion.speed)
+    film, length, speed = geometry.thinnest, geometry.length, scene.equivalent_speed
     numbers = {"convergence": _convergence(scene), "divergence": _divergence(scene)}
     finest = _finest(scene)
     if geometry.width is not None:
@@ -66,6 +68,9 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
         if math.isfinite(roughness.period):
             numbers["roughness_period"] = roughness.period / length
     numbers |= _texture(scene)
+    if approach := abs(scene.motion.approach):
+        sliding = abs(scene.motion.speed) * film
+        numbers["squeeze_number"] = 2 * approach * length / sliding if sliding > 0 else math.inf
     if lubricant.density is not None:
         number = lubricant.density * speed * film / lubricant.viscosity
         numbers["reynolds_number"] = number

@@ -10,8 +10,11 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.supply.quantities import supply_values
 from roughfilm.rom.bearing.totals.least_film import least_film
+from roughfilm.rom.bearing.totals.pads import of_pad
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio, filled_fraction
 from roughfilm.rom.cavitation.evaluation.flows import flow_across, flow_along
@@ -23,6 +26,9 @@ from roughfilm.rom.cavitation.solve import Solution
 EXACT = ("film_min", "film_min_x", "film_min_y")
 """Quantities that follow from the geometry alone and have no error of the grid."""
 
+ROUND_OFF = 1e-14
+"""Friction over the sum of the sizes of the forces across the film below which it is round-off."""
+
 MIN_MEAN_PRESSURE_RATIO = 1e-6
 """Mean pressure over the maximum pressure below which no friction coefficient is given."""
 
@@ -32,17 +38,21 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
 
     Pressures are above ambient. ``film_start`` and ``rupture`` are the positions x/L from the inlet, on the line of the
     maximum pressure, where the first film begins and the last one ruptures; both are 1 without a film. Of joined pieces
-    without an inlet, ``side_leakage`` is what passes from one side to the other. The friction of the liquid is
+    without an inlet, ``side_leakage`` is what leaves through a side. The friction of the liquid is
     F = ∫(η ξ u/h + h/2 ∂p/∂x) dA, where a cavity has streamers from wall to wall over its filled fraction ξ;
     with averaged roughness it is F = ∫(ηu (g (d + 3e) + (ξ - g) B₁ <h⁻²>) + B·∇p/2) dA with the wetness g of the tips
     after :mod:`roughfilm.rom.cavitation.oblique`, which is 1 in a film.
 
     ``power_loss`` is the power that the sliding wall takes, F u, on a ring ω M with the torque M = ∫ r dF; what a
     pressure pumps through the film, p Q, is not in it. ``torque`` is F R of a journal and M of a ring.
+    Where the walls approach each other, ``displaced_flow`` is the flow -∫ θ ∂h/∂t dA that they displace.
     ``film_min`` is the least thickness of the film between the mean planes of the walls, at ``film_min_x`` and
     ``film_min_y`` (:func:`roughfilm.rom.bearing.totals.least_film.least_film`), and ``specific_load`` the load over the
-    nominal area, p. ``hersey_number`` is ηN/p of a wall that turns N times a second, and ηu/(pL) of one that slides;
-    ``sommerfeld_number`` of a journal is ηN/p (R/c)².
+    nominal area, p. ``supply_1_flow`` is what the first supply gives to the film, and ``supply_1_pressure`` the
+    pressure there, behind its restrictor. ``hersey_number`` is ηN/p of a wall that turns N times a second, and ηu/(pL)
+    of one that slides; ``sommerfeld_number`` of a journal is ηN/p (R/c)². A pad about its pivot has ``pivot_film``, its
+    slopes, and the moments of its film about the pivot (:func:`roughfilm.rom.bearing.totals.pads.of_pad`); a misaligned
+    shaft in lobes has moments about the middle of its width (:func:`shaft_moments`).
 
     Parameters
     ----------
@@ -59,6 +69,8 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     drag = drag_of_rows(solution)
     rows = drag.rows + boundary
     load, resistance = load_of(scene, scene_positions(solution), force), float(rows.sum() + drag.between.sum())
+    if abs(resistance) <= ROUND_OFF * float(np.abs(force).sum()):
+        resistance = 0.0
     row = int(np.argmax(np.where(solution.kind == FILM, solution.state.pressure, -1.0).max(axis=0)))
     start, end = film_ends(solution, row)
     flows = boundary_flows(solution)
@@ -72,6 +84,8 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     for name, flow in (("inlet_flow", flows.inlet), ("outlet_flow", flows.outlet)):
         if flow is not None:
             extensive[name] = (flow, "m^3/s", "m^2/s")
+    if problem.opening is not None:
+        extensive["displaced_flow"] = (flows.displaced, "m^3/s", "m^2/s")
     values: dict[str, tuple[float, str]] = {
         "pressure_max": (peak_pressure(solution) + pc, "Pa"),
         "specific_load": (specific, "Pa"),
@@ -94,13 +108,18 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
         }
         values |= {name: (value, unit) for name, (value, unit, _) in extensive.items()}
     values |= {f"{name}_per_width": (value / width, unit) for name, (value, _, unit) in extensive.items()}
+    values |= supply_values(scene, solution)
     if isinstance(scene.geometry, Journal):
         values["attitude_angle"] = (journal_load(scene.geometry, scene_positions(solution), force)[0], "deg")
     elif isinstance(scene.geometry, Lobes):
         values |= _of_shaft(scene.geometry, scene_positions(solution), force)
+        if any(scene.geometry.misalignment):
+            values |= shaft_moments(scene.geometry, scene_positions(solution), grid.y, force)
         values["film_min_angle"] = (math.degrees(float(scene.geometry.angle(np.array(least.x)))), "deg")
         if not scene.geometry.single:  # films of several lobes have no one beginning
             values = {name: value for name, value in values.items() if name not in ("film_start", "rupture")}
+    elif isinstance(scene.geometry, Tilting):
+        values |= of_pad(scene.geometry, scene_positions(solution), grid.y, force)
     if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
         values["friction_coefficient"] = (resistance / load, "1")
         values |= {name: (number, "1") for name, number in numbers_of_load(scene, specific).items()}
@@ -128,23 +147,31 @@ def numbers_of_load(scene: Bearing, specific: float) -> dict[str, float]:
 
 @dataclass(frozen=True, kw_only=True)
 class Flows:
-    """Flows at cavitation density, m³/s (m²/s if infinitely wide): inlet = outlet + low + high.
+    """Flows at cavitation density, m³/s (m²/s if infinitely wide).
+
+    What enters, inlet, supplies and displaced, equals what leaves, outlet + low + high.
 
     Attributes
     ----------
     inlet, outlet : flow in through the inlet and flow out through the outlet; None of joined pieces.
     low, high : flows out through the sides at the lowest and at the highest y; zero without open sides.
+    displaced : flow -∫ θ ∂h/∂t dA that walls displace which approach each other; negative where they part.
+    supplied : whether lubricant is supplied inside of the film.
     """
 
     inlet: float | None
     outlet: float | None
     low: float
     high: float
+    supplied: bool = False
+    displaced: float = 0.0
 
     @property
     def side_leakage(self) -> float:
-        """The net flow out through both sides; without an inlet what passes from one side to the other."""
-        return max(self.low, self.high) if self.inlet is None else self.low + self.high
+        """The net flow out through both sides; without inlet and supplies what leaves through one side or both."""
+        if self.supplied or self.inlet is not None:
+            return self.low + self.high
+        return max(self.low, self.high) if self.displaced == 0 else max(self.low, 0.0) + max(self.high, 0.0)
 
 
 def boundary_flows(solution: Solution) -> Flows:
@@ -153,32 +180,54 @@ def boundary_flows(solution: Solution) -> Flows:
     The control volumes of the outermost rows are half as wide as the others, and the nodes on open sides belong to the
     bath. What flows along such a row enters with it at the inlet, leaves with it at the outlet, and the difference
     passes the side. The flow along it is three quarters that at the side, with the filling of the row next to it, and
-    one quarter that of the row next to it, as the middle of the half row lies a quarter of a cell from the side.
+    one quarter that of the row next to it, as the middle of the half row lies a quarter of a cell from the side. The
+    control volumes of the edges store liquid as the others do where the walls approach each other.
     """
     along, grid, open_sides = flow_along(solution), solution.grid, solution.problem.ends.sides is not None
     across = flow_across(solution) if open_sides else np.zeros((grid.x.size, 2))
     low, high = -float(across[:, 0].sum()), float(across[:, -2].sum())
-    if solution.network.periodic[0] and not solution.problem.shape.idle:
-        return Flows(inlet=None, outlet=None, low=low, high=high)
+    stored, idle = stored_flow(solution), solution.problem.shape.idle
+    displaced, supplied = 0.0 - float(stored.sum()), bool(solution.problem.inflows)
+    if open_sides:
+        beside = stored if solution.network.periodic[0] else stored[1:-1]
+        low, high = low - float(beside[:, 0].sum()), high - float(beside[:, -1].sum())
+    if solution.network.periodic[0] and not idle:
+        return Flows(inlet=None, outlet=None, low=low, high=high, supplied=supplied, displaced=displaced)
     fill, couette, widths = solution.state.fill, solution.network.couette, grid.volume_y * grid.radius
     for row, inner in ((0, 1), (-1, -2)) if open_sides else ():
         filled = along[:, row] + couette[:, row] * (fill[:, inner] - fill[:, row])
         along[:, row] = 0.75 * filled + 0.25 * along[:, inner] * widths[row] / widths[inner]
-    if solution.problem.shape.idle:
-        gap = (solution.kind == FIXED).all(axis=1)
+    if idle:
+        within = solution.problem.shape.is_idle(grid.x + grid.spacing_x / 2)
+        gap = within | np.roll(within, 1)
         begins, ends = np.flatnonzero(gap & ~np.roll(gap, -1)), np.flatnonzero(~gap & np.roll(gap, -1))
         low, high = -float(across[~gap, 0].sum()), float(across[~gap, -2].sum())
-        through = np.zeros(2)
+        entering = leaving = 0.0
     else:
         begins, ends = np.array([0]), np.array([along.shape[0] - 2])
         through = across[[0, -1], -2] - across[[0, -1], 0]
+        entering, leaving = float(stored[0].sum() + through[0]), -float(stored[-1].sum() + through[1])
     passed = along[begins].sum(axis=0) - along[ends].sum(axis=0) if open_sides else np.zeros(1)
     return Flows(
-        inlet=float(along[begins].sum() + through[0]),
-        outlet=float(along[ends].sum() - through[1]),
+        inlet=float(along[begins].sum()) + entering,
+        outlet=float(along[ends].sum()) + leaving,
         low=low + float(passed[0]),
         high=high + float(passed[-1]),
+        supplied=supplied,
+        displaced=displaced,
     )
+
+
+def stored_flow(solution: Solution) -> Array:
+    """The flow θ ∂h/∂t that the control volume of each node takes up, m³/s, shape (nx, ny).
+
+    A node on an open side has the filling of the node next to it, as no liquid enters a cavity through the side.
+    """
+    net, fill = solution.network, solution.state.fill
+    if solution.problem.ends.sides is not None:
+        fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
+    filled = fill + solution.problem.compression(solution.state.pressure)[0]
+    return np.asarray(net.storage * filled - net.stored)
 
 
 def film_ends(solution: Solution, row: int) -> tuple[float, float]:
@@ -264,10 +313,22 @@ def _of_shaft(geometry: Lobes, x: Array, force: Array) -> dict[str, tuple[float,
         "eccentricity_x": (along_x, "1"),
         "eccentricity_y": (along_y, "1"),
     }
-    if math.hypot(push_x, push_y) and math.hypot(along_x, along_y):
+    values |= {f"tilt_{pad + 1}": (tilt, "rad") for pad, tilt in enumerate(geometry.tilts or ())}
+    pushed = math.hypot(push_x, push_y) > ROUND_OFF * float(np.abs(force).sum())
+    if pushed and math.hypot(along_x, along_y):
         turned = math.atan2(along_y, along_x) - math.atan2(-push_y, -push_x)
         values["attitude_angle"] = (abs(math.degrees(math.remainder(turned, 2 * math.pi))), "deg")
     return values
+
+
+def shaft_moments(geometry: Lobes, x: Array, y: Array, force: Array) -> dict[str, tuple[float, str]]:
+    """The moments on a shaft in lobes about the middle of its width, N m, by forces at the nodes.
+
+    With the force (F_x, F_y) at the distance ζ from the middle they are M_x = -Σ ζ F_y and M_y = Σ ζ F_x: they turn y
+    towards the axis, and the axis towards x.
+    """
+    push_x, push_y = shaft_force(geometry, x, force * (y - (geometry.width or 0.0) / 2))
+    return {"moment_x": (-push_y, "N*m"), "moment_y": (push_x, "N*m")}
 
 
 def journal_load(geometry: Journal, x: Array, force: Array) -> tuple[float, float]:

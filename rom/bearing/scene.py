@@ -3,6 +3,7 @@
 import math
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
+import numpy as np
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator, model_validator
 
 from roughfilm.contact.foundation.entries import Angle, InUnit, Part, PositiveNumber, plain_number
@@ -11,25 +12,31 @@ from roughfilm.contact.foundation.units import rotational_speed, with_unit
 from roughfilm.rom.bearing.asperity_contact import AsperityContact
 from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.lobes import DOWN, Lobes
+from roughfilm.rom.bearing.geometry.pivoted import Tilting
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import SHAPES, AnyShape
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
+from roughfilm.rom.bearing.supply.patches import Patch, patches, supplied
+from roughfilm.rom.bearing.supply.tables import MAX_SUPPLIES, AnySupply
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
 from roughfilm.rom.parts.fluid import Fluid
+from roughfilm.rom.parts.surroundings import GaugePressure
 
 if TYPE_CHECKING:
     from roughfilm.rom.cavitation.discretise import Ends
-    from roughfilm.rom.cavitation.problem import Problem
+    from roughfilm.rom.cavitation.problem import Inflow, Problem
+    from roughfilm.rom.cavitation.shape import Thickness
 
-GaugePressure = Annotated[float, InUnit("Pa", any_sign=True)]
 Speed = Annotated[float, InUnit("m/s", any_sign=True)]
 Viscosity = Annotated[float, InUnit("Pa*s")]
 Density = Annotated[float, InUnit("kg/m^3")]
 Pressure = Annotated[float, InUnit("Pa")]
 Force = Annotated[float, InUnit("N")]
+Moment = Annotated[float, InUnit("N*m", any_sign=True)]
 ForcePerWidth = Annotated[float, InUnit("N/m")]
 
 
@@ -69,9 +76,12 @@ class BearingMotion(Part):
     Attributes
     ----------
     speed : sliding speed, m/s; of a journal, a sector or a washer also a rotational speed, "3000 rpm".
+    approach : velocity V at which the walls approach each other, ∂h/∂t = -V, m/s, negative if they part; of a journal
+        that of the shaft towards its narrowest place, ∂h/∂t = V cos φ with the angle φ from the widest place.
     """
 
     speed: Speed
+    approach: Speed = 0.0
 
 
 class Inlet(Part):
@@ -141,12 +151,16 @@ class BearingLoad(Part):
     force : load of the whole bearing, of a ring with all of its pieces, N.
     force_per_width : load over the width of an infinitely wide bearing, N/m.
     angle : direction of the load on a shaft in lobes, from the x axis towards the y axis, rad; by default -90°, down.
+    moment_x, moment_y : moments on a pivoted pad about the axes along x, the sliding, and along y through its pivot,
+        N m; z points from the sliding wall to the pad. Each pad of a bearing has them.
     """
 
     pressure: Pressure | None = None
     force: Force | None = None
     force_per_width: ForcePerWidth | None = None
     angle: Angle = DOWN
+    moment_x: Moment = 0.0
+    moment_y: Moment = 0.0
 
     @model_validator(mode="after")
     def _one_of_three(self) -> Self:
@@ -178,6 +192,7 @@ class Bearing(Scene):
     roughness: AnyRoughness | None = None
     asperities: AsperityContact | None = None
     load: BearingLoad | None = None
+    supply: Annotated[tuple[AnySupply, ...], Field(max_length=MAX_SUPPLIES)] = ()
 
     @field_validator("geometry", mode="before")
     @classmethod
@@ -224,6 +239,7 @@ class Bearing(Scene):
                 self.lubricant.compressibility.pressure_at(theta)
             except InputError as error:
                 raise ValueError(f"boundary.inlet.{error}") from None
+        self._can_be_supplied()
         if isinstance(self.geometry, Ring) and self.geometry.endless:
             self._can_be_joined("joined pads")
         elif isinstance(self.geometry, Lobes) and self.geometry.joined:
@@ -238,12 +254,20 @@ class Bearing(Scene):
             )
         if self.asperities is not None:
             self._can_touch(self.asperities)
+        if self.motion.approach and isinstance(self.geometry, MovingWall):
+            moves = "pad that tilts" if isinstance(self.geometry, Tilting) else "shaft in lobes"
+            raise ValueError(
+                f"motion.approach: got {self.motion.approach!r} m/s for a {moves}, which moves in several directions; "
+                "leave it out, and take roughfilm march for its motion"
+            )
         film = self.geometry.film
         if self.load is not None:
             self._can_be_loaded(self.load)
         elif film is None:
             key = "eccentricity" if isinstance(self.geometry, Shaft) else "film"
             raise ValueError(f"geometry.{key}: is missing; give it, or a load ([load] force or pressure)")
+        elif isinstance(self.geometry, Tilting) and self.geometry.slopes is None:
+            raise ValueError("geometry.slopes: are missing; give them, or a load ([load] force or pressure)")
         elif isinstance(self.roughness, Sinusoid) and self.roughness.amplitude >= film:
             raise ValueError(
                 f"roughness.amplitude: got {self.roughness.amplitude!r} m; it must be below film, "
@@ -264,11 +288,43 @@ class Bearing(Scene):
                 "load.force: is that of the whole bearing, whose number of pads is unknown; give geometry.pads, or "
                 "load.pressure"
             )
-        if self.motion.speed == 0 and self.asperities is None:
+        if load.moment_x or load.moment_y:
+            self._can_have_moments(load)
+        if self.motion.speed == 0 and self.motion.approach <= 0 and self.asperities is None and not self.supply:
+            parts = " between walls that part" if self.motion.approach else ""
             raise ValueError(
-                "motion.speed: got 0 m/s under a load; a film without sliding carries none by its thickness, give a "
-                "speed, or [asperities] that touch"
+                f"motion.speed: got 0 m/s under a load; a film without sliding{parts} carries none by its thickness, "
+                "give a speed, an approach above 0 m/s, [[supply]] behind restrictors, or [asperities] that touch"
             )
+
+    def _can_be_supplied(self) -> None:
+        """Raise ValueError if a supply lies outside of the film, or its pressure is below that of cavitation."""
+        lowest = self.lubricant.cavitation_pressure
+        for number, supply in enumerate(self.supply):
+            if supply.pressure is not None and supply.pressure < lowest:
+                raise ValueError(
+                    f"supply.{number}.pressure: got {supply.pressure!r} Pa; it must be at least the cavitation "
+                    f"pressure, {lowest!r} Pa"
+                )
+            if supply.orifice is not None and self.lubricant.density is None:
+                raise ValueError(
+                    f"supply.{number}.orifice: got one without lubricant.density, by which its flow is determined; "
+                    "give the density"
+                )
+        if self.supply and self.asperities is not None:
+            raise ValueError("asperities: got a table with [[supply]], inside of which none touch; leave one out")
+        patches(self.geometry, self.supply)
+
+    def _can_have_moments(self, load: BearingLoad) -> None:
+        geometry = self.geometry
+        if not isinstance(geometry, Tilting) or self.wide:
+            wide = "infinitely wide " if self.wide else ""
+            raise ValueError(
+                f"load.moment_{'x' if load.moment_x else 'y'}: got one for the {wide}shape {geometry.shape!r}; pivoted "
+                "pads with a width have moments"
+            )
+        if load.moment_x and not geometry.tilts_across:
+            raise ValueError("load.moment_x: got one for a pivot with line = true, which takes it; leave it out")
 
     def _can_touch(self, asperities: AsperityContact) -> None:
         if not isinstance(self.roughness, RoughSurface | StoredTable):
@@ -283,10 +339,10 @@ class Bearing(Scene):
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
         if boundary.inlet != Inlet() or boundary.outlet != Outlet():
             raise ValueError(f"boundary: got an inlet or outlet, but {pieces} have none; leave it out")
-        if max(boundary.sides.low, boundary.sides.high) <= lowest:
+        if max(boundary.sides.low, boundary.sides.high) <= lowest and not self.supply:
             raise ValueError(
                 f"boundary.sides: got no pressure above the cavitation pressure of {lowest!r} Pa; {pieces} are "
-                "fed through their sides, raise one of the two"
+                "fed through their sides, raise one of the two, or give [[supply]]"
             )
 
     @property
@@ -322,8 +378,8 @@ class Bearing(Scene):
         return self.model_copy(update={"geometry": geometry, "load": None})
 
     def at_speed(self, speed: float) -> Self:
-        """The bearing at another speed, m/s."""
-        return self.model_copy(update={"motion": BearingMotion.model_construct(speed=speed)})
+        """The bearing at another sliding speed, m/s."""
+        return self.model_copy(update={"motion": self.motion.model_copy(update={"speed": speed})})
 
     @property
     def turning_radius(self) -> float | None:
@@ -366,26 +422,62 @@ class Bearing(Scene):
             sides=None if self.wide else sides,
         )
 
+    @property
+    def supply_patches(self) -> tuple[Patch, ...]:
+        """Where the supplies lie in the film."""
+        return patches(self.geometry, self.supply)
+
+    @property
+    def inflows(self) -> "tuple[Inflow, ...]":
+        """The inflows of the supplies."""
+        from roughfilm.rom.bearing.supply.restrictors import inflows  # slow to import
+
+        return inflows(
+            self.supply_patches,
+            self.supply,
+            viscosity=self.lubricant.viscosity,
+            density=self.lubricant.density,
+            cavitation_pressure=self.lubricant.cavitation_pressure,
+        )
+
     def problem(self) -> "Problem":
         """The problem of the film without roughness."""
         from roughfilm.rom.cavitation.problem import Problem  # slow to import
 
-        geometry, lubricant = self.geometry, self.lubricant
+        geometry, lubricant, found = self.geometry, self.lubricant, self.supply_patches
         radius = geometry.radius if isinstance(geometry, Ring) else 1.0
+        shape = geometry.film_shape()
         return Problem(
-            shape=geometry.film_shape(),
+            shape=supplied(shape, found) if found else shape,
+            inflows=self.inflows,
             ends=self.ends,
             speed=self.motion.speed / radius,
             viscosity=lubricant.viscosity,
             compressibility=lubricant.compressibility,
             piezoviscosity=lubricant.piezoviscosity,
+            opening=self.opening(),
         )
+
+    def opening(self) -> "Thickness | None":
+        """∂h/∂t over x and y, m/s; None where the walls do not approach each other."""
+        approach, geometry = self.motion.approach, self.geometry
+        if approach == 0:
+            return None
+        if isinstance(geometry, Journal):
+            return lambda x, y: approach * np.cos(x / geometry.radius) + 0 * y
+        return lambda x, y: np.full(np.broadcast(x, y).shape, -approach)
 
     @property
     def pressure_unit(self) -> float:
-        """The pressure scale of sliding, 6 η u L / h², Pa, with the minimum film thickness h."""
-        geometry = self.geometry
-        return 6 * self.lubricant.viscosity * abs(self.motion.speed) * geometry.length / geometry.thinnest**2
+        """The pressure scale of sliding and squeeze, 6 η u L/h² + 12 η V L²/h³, Pa, with the minimum thickness h."""
+        return 6 * self.lubricant.viscosity * self.equivalent_speed * self.geometry.length / self.geometry.thinnest**2
+
+    @property
+    def equivalent_speed(self) -> float:
+        """The mean speeds of sliding and of the squeezed liquid at the ends, u + 2 V L/h, m/s."""
+        motion, geometry = self.motion, self.geometry
+        squeezed = 2 * abs(motion.approach) * geometry.length / geometry.thinnest if motion.approach else 0.0
+        return abs(motion.speed) + squeezed
 
     @property
     def revolutions(self) -> float:

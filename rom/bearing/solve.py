@@ -18,13 +18,15 @@ from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, co
 from roughfilm.rom.bearing.film import Searched, smooth_films
 from roughfilm.rom.bearing.free.solve import closer, placed, solve_free
 from roughfilm.rom.bearing.geometry.journal import Journal
-from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.quantities import EXACT, FILM_OUTPUTS, Fields, Outputs
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.supply.quantities import supply_warnings
 from roughfilm.rom.bearing.totals.reported import in_order
 from roughfilm.rom.bearing.totals.whole import whole_bearing
 from roughfilm.rom.bearing.uncertainty import POSITIONS, uncertainties
 from roughfilm.rom.bearing.warnings import (
+    pad_warnings,
     pressure_warnings,
     rupture_warnings,
     scene_warnings,
@@ -82,7 +84,7 @@ def solve(
         If the film or its load does not converge.
     """
     cells = request.resolution
-    if isinstance(scene.geometry, Lobes):
+    if isinstance(scene.geometry, MovingWall):
         with one_time("start"):
             load_loops(scene.wide)
         law = None if contact is None else contact(scene)
@@ -121,6 +123,8 @@ def solve(
         *rupture_warnings(solution.state.pressure),
         *scene_warnings(scene, solution),
         *window_warnings(found.scene, solution),
+        *supply_warnings(found.scene, solution),
+        *pad_warnings(found.scene, solution),
     ]
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)

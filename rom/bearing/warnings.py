@@ -5,8 +5,11 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.rounding import share
 from roughfilm.rom.bearing.corners import jumps
+from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.quantities import scene_positions
 from roughfilm.rom.bearing.roughness import RoughSurface
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.totals.pads import unloaded
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.homogenization.table.factor_table import FactorTable
@@ -47,6 +50,22 @@ def window_warnings(scene: Bearing, solution: Solution) -> list[str]:
     relative = table.scatter_above(scene.geometry.thinnest)
     size = "whose scatter, which is unknown," if relative is None else f"whose scatter of up to {share(relative)}"
     return [f"roughness: the flow factors are means over windows, {size} the uncertainty of the results leaves out"]
+
+
+def pad_warnings(scene: Bearing, solution: Solution) -> list[str]:
+    """A warning for the pads of a journal bearing, at the place of its shaft, that tilt and carry no load."""
+    geometry = scene.geometry
+    if not isinstance(geometry, Lobes) or geometry.pivot is None:
+        return []
+    pressure = solution.state.pressure + scene.lubricant.cavitation_pressure
+    idle = unloaded(geometry, scene_positions(solution), solution.grid.areas * pressure)
+    if not idle:
+        return []
+    many = len(idle) > 1
+    return [
+        f"{'pads' if many else 'pad'} {', '.join(map(str, idle))} {'carry' if many else 'carries'} no load, and "
+        f"{'rest' if many else 'rests'} where the film just ruptures; such pads may flutter, raise the preload"
+    ]
 
 
 def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:

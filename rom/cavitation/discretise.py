@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.compiled import unreordered
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.cavitation.averaged import Averaged, averaged
 from roughfilm.rom.cavitation.grid import Grid
@@ -102,32 +103,42 @@ def faces_of(thickness: Iterator[Array], shape: Shape, grid: Grid) -> Faces:
     """The film on a grid from its thickness at the ``positions``, m, and the roughness of its shape."""
     nx, ny = grid.shape
     mean, east, north = (np.zeros((nx, ny)) for _ in range(3))
-    nodes = (next(thickness) / len(BESIDE)).sum(axis=0)
+    beside = next(thickness) / len(BESIDE)
     parts = np.zeros((2, len(PARTS), nx, ny))
-    last = nx if grid.spacing_x[-1] else nx - 1
     strips = 1 if ny == 1 else len(QUARTERS)
     for _ in range(strips):
-        square, cube = _resistance(shape, next(thickness))
-        squared, cubed = (values[: len(GAUSS)].sum(axis=0) for values in (square, cube))
-        mean[:last] += squared / cubed / strips
-        east[:last] += len(GAUSS) / cubed / strips
-        squared, cubed = (_accumulated(values[len(GAUSS) :] * PARTS[0]) for values in (square, cube))
-        parts[0, :, :last] += squared / cubed / strips
-        parts[1, :, :last] += 1 / cubed / strips
+        add_along(*_resistance(shape, next(thickness)), strips, mean, east, parts)
     if ny > 1:
-        last = ny if grid.spacing_y[-1] else ny - 1
         for _ in AROUND:
-            cubed = _resistance_across(shape, next(thickness)).sum(axis=0)
-            north[:, :last] += len(GAUSS) / cubed / len(AROUND)
+            add_across(_resistance_across(shape, next(thickness)), north)
     rough = None if shape.roughness is None else averaged(shape, shape.roughness, grid)
-    return Faces(thickness=nodes, mean=mean, east=east, north=north, parts=parts, averaged=rough)
+    return Faces(thickness=beside[0] + beside[1], mean=mean, east=east, north=north, parts=parts, averaged=rough)
 
 
-def _accumulated(values: Array) -> Array:
-    """The sums of values up to each one of the first axis, in place: ``cumsum`` is slow along that axis."""
-    for number in range(1, len(values)):
-        values[number] += values[number - 1]
-    return values
+@unreordered
+def add_along(square, cube, strips, mean, east, parts):  # type: ignore[no-untyped-def]
+    """Add the flow along a strip of every face, from h⁻² and h⁻³ at its Gauss points and its parts."""
+    points, last, ny = square.shape
+    for i in range(last):
+        for j in range(ny):
+            cubed = cube[0, i, j] + cube[1, i, j]
+            mean[i, j] += (square[0, i, j] + square[1, i, j]) / cubed / strips
+            east[i, j] += 2 / cubed / strips
+            squared = cubed = 0.0
+            for part in range(points - 2):
+                squared += square[2 + part, i, j] * 0.25
+                cubed += cube[2 + part, i, j] * 0.25
+                parts[0, part, i, j] += squared / cubed / strips
+                parts[1, part, i, j] += 1 / cubed / strips
+
+
+@unreordered
+def add_across(cube, north):  # type: ignore[no-untyped-def]
+    """Add the flow across a half of every face, from h⁻³ at its Gauss points."""
+    _, nx, last = cube.shape
+    for i in range(nx):
+        for j in range(last):
+            north[i, j] += 2 / (cube[0, i, j] + cube[1, i, j]) / 2
 
 
 def _resistance(shape: Shape, h: Array) -> tuple[Array, Array]:
@@ -186,17 +197,20 @@ def network(
     nx, ny = grid.shape
     across = grid.volume_y * grid.radius
     couette = 0.5 * speed * across * faces.mean
+    count = len(PARTS) if ruptures else 0
     with np.errstate(divide="ignore", invalid="ignore"):
-        east = faces.east * grid.volume_y / (12 * viscosity * grid.radius * grid.spacing_x[:, None])
+        resistance = 12 * viscosity * grid.radius * grid.spacing_x[:, None]
+        east = faces.east * grid.volume_y / resistance
         towards = (grid.radius + np.roll(grid.radius, -1)) / 2
         north = faces.north * grid.volume_x[:, None] * towards / (12 * viscosity * grid.spacing_y)
-        east[faces.east == 0] = north[faces.north == 0] = 0
-        upstream = np.maximum(0.5, 1 - east / (couette * compressibility))
-        part_east = faces.parts[1] * grid.volume_y / (12 * viscosity * grid.radius * grid.spacing_x[:, None])
-        part_east[faces.parts[1] == 0] = 0
-    upstream[couette * compressibility == 0] = 0.5
-    count = len(PARTS) if ruptures else 0
-    part_couette, part_east = 0.5 * speed * across * faces.parts[0, :count], part_east[:count]
+        part_east = faces.parts[1, :count] * grid.volume_y / resistance
+        for conductance, integrals in ((east, faces.east), (north, faces.north), (part_east, faces.parts[1, :count])):
+            conductance[integrals == 0] = 0
+        advected = couette * compressibility
+        upstream = np.full((nx, ny), 0.5)
+        if advected.any():
+            upstream[advected != 0] = np.maximum(0.5, 1 - east / advected)[advected != 0]
+    part_couette = 0.5 * speed * across * faces.parts[0, :count]
     fixed, pressure = np.zeros((nx, ny), dtype=bool), np.zeros((nx, ny))
     supply = None
     if grid.spacing_x[-1] == 0:

@@ -1,7 +1,8 @@
 """Nodes over the plane of a film, one at every break of its thickness, and their control volumes."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -32,7 +33,7 @@ class Grid:
         """(nx, ny)."""
         return self.x.size, self.y.size
 
-    @property
+    @cached_property
     def areas(self) -> Array:
         """Areas of the control volumes, m² (m for an infinitely wide film), shape (nx, ny)."""
         return self.volume_x[:, None] * (self.volume_y * self.radius)
@@ -43,9 +44,10 @@ def grid(shape: Shape, cells: tuple[int, int]) -> Grid:
 
     An infinitely wide film has one node in y.
     """
-    x = _along(shape.breaks, cells[0])
     low, high = shape.across
-    y = np.array([(low + high) / 2]) if shape.wide else _along((low, *shape.steps_across, high), cells[1])
+    x = _along(shape.breaks, cells[0], shape.least_share)
+    steps = (low, *shape.steps_across, high)
+    y = np.array([(low + high) / 2]) if shape.wide else _along(steps, cells[1], shape.least_share)
     x, spacing_x, volume_x = _volumes(x, periodic=shape.joined[0])
     y, spacing_y, volume_y = _volumes(y, periodic=shape.joined[1]) if not shape.wide else (y, np.zeros(1), np.ones(1))
     return Grid(
@@ -80,10 +82,21 @@ def _halves(places: Array, spacing: Array) -> Iterator[tuple[Array, Array]]:
     yield places + spacing / 4, spacing / 2
 
 
-def _along(breaks: tuple[float, ...], cells: int) -> Array:
+def doubled(half: Grid) -> Grid:
+    """The grid over both halves of a film that is symmetric about the first row of nodes of one half."""
+    return replace(
+        half,
+        y=np.concatenate([2 * half.y[0] - half.y[:0:-1], half.y]),
+        spacing_y=np.concatenate([half.spacing_y[-2::-1], half.spacing_y]),
+        volume_y=np.concatenate([half.volume_y[:0:-1], 2 * half.volume_y[:1], half.volume_y[1:]]),
+        radius=np.concatenate([half.radius[:0:-1], half.radius]),
+    )
+
+
+def _along(breaks: tuple[float, ...], cells: int, least_share: float) -> Array:
     """Node positions with equal cells between neighbouring breaks, of nearly one size everywhere."""
-    size = (breaks[-1] - breaks[0]) / cells
-    pieces = [np.linspace(a, b, max(1, round((b - a) / size)), endpoint=False) for a, b in pairwise(breaks)]
+    size, least = (breaks[-1] - breaks[0]) / cells, max(1, round(least_share * cells))
+    pieces = [np.linspace(a, b, max(least, round((b - a) / size)), endpoint=False) for a, b in pairwise(breaks)]
     return np.append(np.concatenate(pieces), breaks[-1])
 
 

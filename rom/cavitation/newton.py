@@ -67,19 +67,6 @@ class Linear:
         across = np.roll(self.south * values, -1, axis=1) + np.roll(self.north * values, 1, axis=1)
         return np.asarray(self.centre * values + along + across)
 
-    def without(self, known: NDArray[np.bool_]) -> "Linear":
-        """The system in which the unknowns of some nodes do not change."""
-        beside = [
-            np.where(known | np.roll(known, shift, axis=axis), 0.0, part)
-            for part, shift, axis in (
-                (self.west, 1, 0),
-                (self.east, -1, 0),
-                (self.south, 1, 1),
-                (self.north, -1, 1),
-            )
-        ]
-        return Linear(self.kind, self.mobility, self.balance, np.where(known, 1.0, self.centre), *beside)
-
 
 @dataclass(frozen=True, kw_only=True)
 class Settled:

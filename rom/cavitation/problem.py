@@ -1,8 +1,12 @@
-"""A film to be solved: its shape, sliding speed, lubricant and boundary conditions."""
+"""A film to be solved: its shape, sliding speed, lubricant, boundary conditions and inflows."""
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.discretise import Ends
@@ -10,6 +14,36 @@ from roughfilm.rom.cavitation.shape import Shape, Thickness
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
 from roughfilm.rom.lubricants.viscosity import ConstantViscosity
+
+
+class Restrictor(Protocol):
+    """The resistance between a supply of lubricant and the film."""
+
+    def flow(self, drop: float) -> tuple[float, float]:
+        """The flow, m³/s, at a pressure drop, Pa, and its derivative, m³/(Pa s)."""
+        ...
+
+
+Covers = Callable[[Array, Array], NDArray[np.bool_]]
+"""covers(x, y), whether positions lie in a part of the film, vectorised."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Inflow:
+    """A part of the film in which the pressure is uniform, since lubricant is supplied there.
+
+    Attributes
+    ----------
+    covers : covers(x, y), whether positions lie in it, vectorised.
+    pressure : pressure of the supply above cavitation pressure, Pa.
+    restrictor : resistance between the supply and the film; without one the film has the pressure of the supply.
+    depth : depth d below the wall around it, m; the friction inside is that of a closed recess, 4ηu/(h + d).
+    """
+
+    covers: Covers
+    pressure: float
+    restrictor: Restrictor | None = None
+    depth: float = math.inf
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,6 +58,7 @@ class Problem:
     viscosity : η0, viscosity at the cavitation pressure, Pa s.
     compressibility, piezoviscosity : density and viscosity over pressure.
     opening : opening(x, y), the velocity ∂h/∂t at which the walls part, m/s, vectorised; None if they do not.
+    inflows : parts of the film in which lubricant is supplied.
     """
 
     shape: Shape
@@ -33,6 +68,7 @@ class Problem:
     compressibility: Compressibility = field(default_factory=Incompressible)
     piezoviscosity: Piezoviscosity = field(default_factory=ConstantViscosity)
     opening: Thickness | None = None
+    inflows: tuple[Inflow, ...] = ()
 
     def compression(self, pressure: Array) -> tuple[Array, Array]:
         """ϑ = θ - 1 and dθ/dp, 1/Pa."""

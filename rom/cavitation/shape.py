@@ -30,6 +30,7 @@ class Shape:
     polar : x is an angle, rad, and y the radius, m.
     joined : whether the film is periodic in x, and in y.
     finest : length of the shortest feature of the wall along x and y, in their units; infinite where there is none.
+    least_share : smallest number of cells between neighbouring breaks and steps over the number of cells of a grid.
     idle : intervals of x without a film, such as the gaps between pads, whose walls have no friction.
     roughness : flow factors over the mean gap ``thickness``, if roughness is averaged; None if ``thickness`` includes
         all roughness. The lay is fixed to the sliding direction x, so in polar coordinates it turns with the angle.
@@ -43,6 +44,7 @@ class Shape:
     polar: bool = False
     joined: tuple[bool, bool] = (False, False)
     finest: tuple[float, float] = (math.inf, math.inf)
+    least_share: float = 0.0
     idle: tuple[tuple[float, float], ...] = ()
     roughness: FactorsOverGap | None = None
 

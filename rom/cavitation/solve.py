@@ -13,10 +13,11 @@ from roughfilm.rom.cavitation.discretise import Ends, Faces, faces, network
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.network import Network, State
-from roughfilm.rom.cavitation.newton import UnsettledError, settle
+from roughfilm.rom.cavitation.newton import Settled, UnsettledError, settle
 from roughfilm.rom.cavitation.pressure_limit import at_constant_viscosity, pressure_limit, reduced_pressure
-from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.problem import Inflow, Problem
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
+from roughfilm.rom.cavitation.restricted import fed, first_pressures
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.homogenization.gap_factors import mirrored_factors
 from roughfilm.rom.lubricants.compressibility import Incompressible
@@ -51,6 +52,9 @@ NEAR_PRESSURE_LIMIT = 0.5
 
 NEGATIVE_FILL_TOLERANCE = 1e-6
 """Tolerated negative filling fraction (round-off)."""
+
+SUPPLIED_RESIDUAL = 1e-11
+"""Largest residual at which a film with inflows is solved, whose flows are sums over many nodes."""
 
 WARM_UP_CELLS = 40
 """Number of cells of a film on which every compiled loop runs once."""
@@ -124,7 +128,7 @@ def solve(
         problem = mirrored(problem)
     if problem.speed == 0 and problem.opening is None:
         ruptures = False  # without motion the pressure lies between those of the ends
-    if not ruptures:
+    if not ruptures or problem.speed == 0:  # without sliding nothing is carried in
         problem = replace(problem, ends=replace(problem.ends, inlet=problem.ends.inlet or 0.0))
     wide = problem.shape.wide
     given = start is not None
@@ -198,12 +202,23 @@ def _kept(solution: Solution | None, count: int) -> Solution | None:
 
 
 def _check_fill(solution: Solution) -> None:
-    """Raise ConvergenceError if an oblique lay drains more from a cavity node than flows in."""
+    """Raise ConvergenceError if an oblique lay drains more from a cavity node than flows in, or none can close.
+
+    A cavity whose walls approach each other so fast that it displaces more than it carries on cannot be at rest. Nodes
+    become one where the density of a liquid that is compressed would have to grow in time.
+    """
     least = float(solution.state.fill.min())
     if least < -NEGATIVE_FILL_TOLERANCE:
+        closing = solution.network.oblique is None
+        cause = (
+            "because the walls approach each other faster than a liquid of this compressibility can flow out while its "
+            "density does not change in time; lower motion.approach, or take the model reynolds_incompressible"
+            if closing
+            else "because the pressures beside a cavity drive more liquid along the lay than flows in; take more "
+            "cells, or the model direct"
+        )
         raise ConvergenceError(
-            f"cavitation: a filling fraction is {least:.3g}, because the pressures beside a cavity drive more liquid "
-            "along the lay than flows in; take more cells, or the model direct",
+            f"cavitation: a filling fraction is {least:.3g}, {cause}",
             outcome=Outcome.STALLED,
             iterations=sum(level.iterations for level in solution.levels),
         )
@@ -233,13 +248,33 @@ def on_grid(
         storage=storage,
         ruptures=ruptures,
     )
-    state = start or State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
     if problem.shape.wide:  # each step is slow to import
         from roughfilm.rom.cavitation.line import line_step as step
     else:
         from roughfilm.rom.cavitation.plane import plane_step as step
+    first = start or State(pressure=np.zeros(net.shape), fill=np.ones(net.shape))
+
+    def settled_from(near: State | None) -> Settled:
+        count = sweeps if near is None else min(sweeps, WARM_SWEEPS_OF_LINE if problem.shape.wide else WARM_SWEEPS)
+        return settle(net, problem, near or first, step, sweeps=count, tolerance=tolerance, ruptures=ruptures)
+
+    x, y = np.meshgrid(nodes.x, nodes.y, indexing="ij")
+    covered = tuple(inflow.covers(x, y) for inflow in problem.inflows)
+    if covered:
+        tolerance = min(tolerance, SUPPLIED_RESIDUAL)
+    pressures = first_pressures(problem.inflows, covered, start)
     with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
-        settled = settle(net, problem, state, step, sweeps=sweeps, tolerance=tolerance, ruptures=ruptures)
+        settled = fed(
+            net,
+            problem,
+            problem.inflows,
+            covered,
+            settled_from,
+            step,
+            pressures,
+            tolerance=tolerance,
+            ruptures=ruptures,
+        )
     load = float((nodes.areas * settled.state.pressure).sum())
     return Solution(
         problem=problem,
@@ -280,7 +315,13 @@ def mirrored(problem: Problem) -> Problem:
     )
     opening = problem.opening
     back = None if opening is None else lambda x, y: opening(low + high - x, y)
-    return replace(problem, shape=turned, speed=-problem.speed, opening=back)
+    inflows = tuple(mirrored_inflow(inflow, low + high) for inflow in problem.inflows)
+    return replace(problem, shape=turned, speed=-problem.speed, opening=back, inflows=inflows)
+
+
+def mirrored_inflow(inflow: Inflow, ends: float) -> Inflow:
+    """An inflow mirrored in x between two ends with the given sum of their positions, m."""
+    return replace(inflow, covers=lambda x, y: inflow.covers(ends - x, y))
 
 
 @cache

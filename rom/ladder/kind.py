@@ -76,6 +76,11 @@ def no_surface(_scene: Any) -> None:
     return
 
 
+def always_lawful(_entries: Mapping[str, Any]) -> bool:
+    """Return False, for kinds whose error laws hold for all of their scenes."""
+    return False
+
+
 def nothing_remarked(_entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
     """Return no sentences, for kinds whose quantities need none."""
     return ()
@@ -114,7 +119,8 @@ class Kind:
         of the whole they hold.
     compared_with : the compared quantities of scenes that have a table, by the name of the table; the error laws do not
         hold for these scenes.
-    lawful : whether the error laws hold; False for the kind of a scene with such a table.
+    lawful : whether the error laws hold; False for the kind of a scene with such a table, or of one that is lawless.
+    lawless : lawless(entries), whether the error laws do not hold for a scene with these entries.
     laws : name of the error laws of its scenes in the table of laws; "" for the name of the kind.
     variants : by the name of their error laws, whether entries of a scene have these laws in place of those of the
         kind.
@@ -155,6 +161,7 @@ class Kind:
     remarks: Callable[[Mapping[str, Any], Mapping[str, Quantity]], Sequence[str]] = nothing_remarked
     compared_with: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     lawful: bool = True
+    lawless: Callable[[Mapping[str, Any]], bool] = always_lawful
     laws: str = ""
     variants: Mapping[str, Callable[[Mapping[str, Any]], bool]] = field(default_factory=dict)
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
@@ -197,7 +204,7 @@ class Kind:
         for table, compared in self.compared_with.items():
             if entries.get(table) is not None:
                 return self._comparing(compared)
-        return self
+        return replace(self, lawful=False) if self.lawless(entries) else self
 
     @property
     def name_of_laws(self) -> str:

@@ -3,12 +3,12 @@
 from pathlib import Path
 
 import numpy as np
+from roughfilm.rom.cavitation.transient import march
 
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.cavitation.transient import march
 
 
 def closing(time: float) -> Problem:

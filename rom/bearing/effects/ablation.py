@@ -126,7 +126,9 @@ def _has_texture(scene: Bearing) -> bool:
 
 
 def _has_side_flow(scene: Bearing) -> bool:
-    return not scene.wide and not (isinstance(scene.geometry, Ring) and scene.geometry.endless)
+    if scene.wide or scene.supply:
+        return False
+    return not (isinstance(scene.geometry, Ring) and scene.geometry.endless)
 
 
 def _depends_on_pressure(scene: Bearing) -> bool:
@@ -148,7 +150,7 @@ EFFECTS: tuple[SceneEffect, ...] = (
     ),
     SceneEffect(
         name="cavitation",
-        present=lambda scene: scene.motion.speed != 0,
+        present=lambda scene: scene.motion.speed != 0 or scene.motion.approach != 0,
         without=lambda one: replace(one, ruptures=False),
     ),
     SceneEffect(

@@ -8,8 +8,8 @@ import numpy as np
 import scipy
 
 from roughfilm.contact.foundation.deferred import deferred
-from roughfilm.rom.bearing.geometry.journal import Journal
-from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing
 
 REFERENCE = 1e-4
@@ -29,6 +29,9 @@ MIN_FILM_OVER_PEAK = 1.001
 
 STEEPNESS_OF_SHAFT = 1.0
 """Exponent of the load of a shaft near its bore over the least film, W ~ 1/h of a wide bearing."""
+
+STEEPNESS_OF_PAD = 2.0
+"""Exponent of the load of a pad about its pivot over the least film, W ~ 1/h² of a pad that keeps its shape."""
 
 FIRST_OFF_CENTRE = 0.5
 """Film thickness over the clearance of a journal bearing at which the search begins."""
@@ -63,7 +66,7 @@ def expected_scene(scene: Bearing) -> Bearing:
     if scene.load is None:
         return scene
     expected, geometry = expected_film(scene), scene.geometry
-    if isinstance(geometry, Lobes) and expected.place is not None:
+    if isinstance(geometry, MovingWall) and expected.place is not None:
         return scene.moved(geometry.at(np.array(expected.place)))
     return scene.at_film(expected.thickness)
 
@@ -92,9 +95,10 @@ _expected_place = deferred("rom.bearing.free.solve", "expected_place")
 @lru_cache(maxsize=64)
 def _expected(question: _Question) -> ExpectedFilm:
     scene = question.scene
-    if isinstance(scene.geometry, Lobes):
+    if isinstance(scene.geometry, MovingWall):
         place = _expected_place(scene)
-        return ExpectedFilm(scene.geometry.at(np.array(place)).thinnest, STEEPNESS_OF_SHAFT, place)
+        steepness = STEEPNESS_OF_SHAFT if isinstance(scene.geometry, Shaft) else STEEPNESS_OF_PAD
+        return ExpectedFilm(scene.geometry.at(np.array(place)).thinnest, steepness, place)
     return ExpectedFilm(*_estimate(scene))
 
 
@@ -102,9 +106,10 @@ def closest_film(scene: Bearing) -> float:
     """The smallest film thickness of a smooth bearing that is tried, m.
 
     It is above the dip of waves by ``MIN_FILM_RATIO`` times the variation of the film thickness; between parallel walls
-    times the film thickness at which 6ηuL/h² is the load over the nominal area.
+    times the film thickness at which 6ηuL/h² or 12ηVL²/h³ is the load over the nominal area, or that of a film behind
+    restrictors.
     """
-    least = MIN_FILM_RATIO * (_variation(scene) or _scale(scene))
+    least = MIN_FILM_RATIO * (_variation(scene) or _scale(scene) or MIN_FILM_RATIO * scene.geometry.widest)
     return min(scene.geometry.dip * MIN_FILM_OVER_PEAK + least, scene.geometry.widest / 2)
 
 
@@ -121,8 +126,8 @@ def first_film(scene: Bearing, closest: float) -> float:
     if isinstance(geometry, Journal):
         return FIRST_OFF_CENTRE * geometry.clearance
     rise, scale = _variation(scene), _scale(scene)
-    if rise == 0 or scale == 0:
-        return max(scale, 2 * closest)
+    if rise == 0 or scale == 0 or scene.motion.approach > 0 or scene.supply:
+        return min(max(scale, 2 * closest), geometry.widest / 2)
     share = 1.0 if geometry.width is None else 1 / (1 + (geometry.length / geometry.width) ** 2)
 
     def excess(logarithm: float) -> float:
@@ -138,10 +143,26 @@ def first_film(scene: Bearing, closest: float) -> float:
 
 
 def _scale(scene: Bearing) -> float:
-    """The film thickness at which 6ηuL/h² is the load over the nominal area, m."""
+    """The film thickness at which 6ηuL/h² or 12ηVL²/h³ is the load over the nominal area, or of a restricted film, m.
+
+    It is the greatest of these.
+    """
     assert scene.load_pressure is not None
-    sheared = 6 * scene.lubricant.viscosity * abs(scene.motion.speed) * scene.geometry.length
-    return math.sqrt(sheared / scene.load_pressure)
+    viscosity, length = scene.lubricant.viscosity, scene.geometry.length
+    sheared = 6 * viscosity * abs(scene.motion.speed) * length
+    squeezed = 12 * viscosity * max(scene.motion.approach, 0.0) * length**2
+    of_squeeze = float(np.cbrt(squeezed / scene.load_pressure))
+    return max(math.sqrt(sheared / scene.load_pressure), of_squeeze, _fed(scene))
+
+
+def _fed(scene: Bearing) -> float:
+    """The film thickness whose resistance 12η/h³ is that of a restrictor at half of its pressure, m; 0 without one."""
+    viscosity, films = scene.lubricant.viscosity, [0.0]
+    for inflow in scene.inflows:
+        if inflow.restrictor is not None:
+            drop = inflow.pressure / 2 or scene.load_pressure or 0.0
+            films.append((12 * viscosity * abs(inflow.restrictor.flow(drop)[0]) / drop) ** (1 / 3))
+    return max(films)
 
 
 def _variation(scene: Bearing) -> float:

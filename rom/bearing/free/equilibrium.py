@@ -6,8 +6,10 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
+from roughfilm.rom.bearing.free.closed import closed
 from roughfilm.rom.bearing.free.film import FreeFilm
-from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.journal import Shaft
+from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
 from roughfilm.rom.cavitation.motion.march import held
@@ -26,13 +28,7 @@ MAX_STEPS = 200
 """Largest number of time steps."""
 
 HOLDING = 1e-9
-"""Stiffness that holds pads without pressure, over the load per clearance."""
-
-CLOSEST = 1e-4
-"""Least film over the clearance below which no equilibrium is sought."""
-
-CLOSEST_OF_CONTACT = 2e-3
-"""Distance from the smallest known separation, over that of first contact, below which none is sought with contact."""
+"""Stiffness that holds a shaft and pads that no pressure moves, over the load per clearance."""
 
 
 def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load: Array | None = None) -> Instant:
@@ -50,14 +46,19 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     Raises
     ------
     InputError
-        If the film becomes thinner than ``CLOSEST`` times the clearance, or the walls come nearly as close as their
-        contact pressure is known for.
+        If nothing supplies the film, or it closes.
     ConvergenceError
         If the motion does not settle.
     """
     solved = film.solved
+    sides = solved.problem.ends.sides
+    if solved.problem.shape.joined[0] and not solved.inflows and sides is not None and max(sides) <= 0:
+        raise InputError(
+            "boundary.sides: got the cavitation pressure at both sides of a bore without grooves, which then has no "
+            "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
+        )
     force = film.load if load is None else load
-    free, held_by = film.free, _holding(film, force)
+    free, held_by = film.free, holding(film, force)
     if start is not None:
         drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free)
         try:
@@ -74,23 +75,27 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
 
 
 def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tolerance: float) -> Instant:
-    """The end of the motion without mass from a film."""
-    solved, free, count = film.solved, film.free, force.size
+    """The end of the motion without mass from a film.
+
+    At rest the last step is a long one: nothing determines how far the cavities of a steady film would be filled.
+    """
+    solved, free, count, speed = film.solved, film.free, force.size, film.solved.problem.speed
+    time = 1 / _rate(film, force)
+    step = FIRST_STEP * time
     given = Drive(
-        speed=solved.problem.speed,
+        speed=speed,
         force=force,
         stiffness=np.zeros((count, count)),
         free=np.zeros(count, dtype=bool),
+        storage=(0.0, 0.0) if speed else (1 / time, held(solved, start) / time),
     )
     instant = settled(solved, start, given, tolerance=tolerance)
     if not free.any():
         return instant
-    time = 1 / _rate(film, force)
-    step = FIRST_STEP * time
     for _ in range(MAX_STEPS):
         last = step >= LAST_STEP * time
-        storage = (0.0, 0.0) if last else (1 / step, held(solved, instant) / step)
-        drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free, storage=storage)
+        storage = (0.0, 0.0) if last and speed else (1 / step, held(solved, instant) / step)
+        drive = Drive(speed=speed, force=force, stiffness=held_by, free=free, storage=storage)
         try:
             instant = settled(solved, instant, drive, tolerance=tolerance)
         except ConvergenceError:
@@ -98,34 +103,16 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
             if step < 1e-6 * time:
                 break
             continue
+        if (reason := closed(film, instant, force)) is not None:
+            raise reason
         if last:
             return instant
-        _check_room(film, instant, force)
         step *= GROWTH
+    other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
     raise ConvergenceError(
-        "load: the motion towards the equilibrium does not settle; take more cells, or another load",
+        f"load: the motion towards the equilibrium does not settle; take more cells, or {other}",
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
-    )
-
-
-def _check_room(film: FreeFilm, instant: Instant, force: Array) -> None:
-    """Raise InputError if the walls have nearly reached the smallest film thickness that has a solution."""
-    contact, clearance = film.solved.contact, film.wall.unit[0]
-    least = CLOSEST * clearance if contact is None else CLOSEST_OF_CONTACT * (contact.touching - contact.closest)
-    if film.solved.room(instant.place) >= least:
-        return
-    size = f"{np.hypot(*force[:2]):.6g} N"
-    if contact is None:
-        raise InputError(
-            f"load: got {size}; no film above {instant.faces.thickness.min():.2g} m carries it; lower the load, or "
-            "raise the speed or the viscosity"
-        )
-    pressed = np.hypot(*film.solved.contact_at(instant.place).force[:2])
-    raise InputError(
-        f"load: got {size}; at a separation of {contact.closest:.4g} m, the smallest whose contact pressure is known, "
-        f"the asperities carry {pressed:.4g} N and the film too little; lower the load, or make a table with larger "
-        "loads"
     )
 
 
@@ -135,20 +122,25 @@ def _rate(film: FreeFilm, force: Array) -> float:
     A load W per width closes a film in a time of about 12π η (R/c)² R/W.
     """
     scene, geometry = film.scene, film.scene.geometry
-    assert isinstance(geometry, Lobes)
+    turning = max(abs(scene.motion.speed) / geometry.length * 2 * np.pi, 1e-6)
+    if not isinstance(geometry, Shaft):
+        return turning
     width = 1.0 if film.whole.problem.shape.wide else geometry.width or 1.0
-    thinness = (geometry.clearance / geometry.radius) ** 2
-    squeezed = (
-        float(np.hypot(*force[:2])) * thinness / (12 * np.pi * scene.lubricant.viscosity * geometry.radius * width)
-    )
-    return max(abs(scene.motion.speed) / geometry.radius, squeezed)
+    resistance = 12 * np.pi * scene.lubricant.viscosity * (geometry.radius / geometry.clearance) ** 2
+    return max(turning, float(np.hypot(*force[:2])) / (resistance * geometry.radius * width))
 
 
-def _holding(film: FreeFilm, force: Array) -> Array:
-    """The stiffness that holds pads without pressure at their place, shape (coordinates, coordinates)."""
+def holding(film: FreeFilm, force: Array) -> Array:
+    """The stiffness that holds a shaft and its pads where no pressure moves them, shape (coordinates, coordinates).
+
+    A pad without pressure has no moment at any tilt, and a shaft on a single pad that tilts no force across it. With
+    the stiffness such a pad rests at the least tilt at which its film carries nothing, and the shaft nearest to the
+    middle. A pad of a thrust bearing always carries its load, and has none.
+    """
     unit = film.wall.unit
-    stiff = np.where(film.wall.turns, HOLDING * np.abs(force).max() * unit[0] / unit**2, 0.0)
-    return np.diag(stiff)
+    if not isinstance(film.scene.geometry, Shaft):
+        return np.zeros((unit.size, unit.size))
+    return np.diag(HOLDING * np.abs(force).max() * unit[0] / unit**2)
 
 
 def refined(coarse: FreeFilm, instant: Instant, fine: FreeFilm) -> Instant:

@@ -1,5 +1,6 @@
 """The film of a bearing whose wall moves as a rigid body, on a grid."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -10,15 +11,25 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.geometry.lobes import Lobes
-from roughfilm.rom.bearing.geometry.rigid import RigidWall
+from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
+from roughfilm.rom.bearing.geometry.rigid import MovingWall, RigidWall
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.cavitation.grid import grid
+from roughfilm.rom.bearing.supply.patches import in_the_middle
+from roughfilm.rom.cavitation.grid import doubled, grid
 from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Instant, kinds
-from roughfilm.rom.cavitation.motion.film import Inflow, MovingFilm
+from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import State, Values
-from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import Level, Solution, mirrored
+from roughfilm.rom.cavitation.problem import Inflow, Problem
+from roughfilm.rom.cavitation.restricted import first_pressures
+from roughfilm.rom.cavitation.shape import Shape
+from roughfilm.rom.cavitation.solve import Level, Solution, mirrored, mirrored_inflow
+
+WEDGE_LOAD = 0.16
+"""Load of an infinitely wide pad over η u L²/h², whose film narrows to about half its thickness."""
+
+MAX_FIRST_FILM = 1e-2
+"""Largest film over the length of a pad at which the search for an equilibrium begins."""
 
 AT_EDGE = 1e-9
 """Distance from the edge of a groove, over the length of the film, up to which a node lies on it."""
@@ -47,20 +58,20 @@ class FreeFilm:
     def free(self) -> NDArray[np.bool_]:
         """Whether each coordinate is sought: the shaft under a load, and pads without a given tilt."""
         geometry = self.scene.geometry
-        assert isinstance(geometry, Lobes)
-        return np.where(self.wall.turns, geometry.tilts is None, self.scene.load is not None)
+        assert isinstance(geometry, MovingWall)
+        return np.where(self.wall.turns, not geometry.tilted, self.scene.load is not None)
 
     @cached_property
     def load(self) -> Array:
         """The load of the scene on each coordinate, N (N m of an angle; per width if infinitely wide)."""
         line = self.whole.problem.shape.wide
-        return load_of_scene(self.scene) / ((self.scene.geometry.width or 1.0) if line else 1.0)
+        return load_of_scene(self.scene)[: self.wall.place.size] / ((self.scene.geometry.width or 1.0) if line else 1.0)
 
     def first(self, place: Array) -> Instant:
         """A full film at ambient pressure and given coordinates, from which an iteration starts."""
         film = self.solved
         faces = film.faces(place)
-        pressures = np.array([inflow.pressure for inflow in film.inflows])
+        pressures = first_pressures(film.inflows, film.covered, None)
         net = film.network(faces, pressures, speed=film.problem.speed)
         state = State(pressure=np.where(net.fixed, net.pressure, 0.0), fill=np.ones(net.shape))
         return Instant(
@@ -119,66 +130,76 @@ def free_film(
     ruptures : whether the film cavitates.
     contact : the contact pressure of the walls over the film thickness; None of walls that do not touch.
     """
-    geometry = scene.geometry
-    assert isinstance(geometry, Lobes)
-    wall, placed = geometry.wall, scene.moved(geometry.at(geometry.wall.place))
-    problem = film(placed)
-    modes, place, shaped = wall.normals, wall.place, problem.shape.thickness
+    geometry = _started(scene, contact)
+    problem = film(scene.moved(geometry.at(geometry.wall.place)))
+    even = _even(scene, geometry, problem.shape)
+    across = "slope_y" in geometry.wall.names and (even or problem.shape.wide)
+    wall = geometry.wall.first(2) if across else geometry.wall
+    modes, shaped = wall.normals, problem.shape.thickness
     at_rest = replace(
         problem,
         shape=replace(
             problem.shape,
-            thickness=lambda x, y: shaped(x, y) - sum(n(x, y) * q for n, q in zip(modes, place, strict=True)),
+            thickness=lambda x, y: (
+                shaped(x, y) - sum(n(x, y) * q for n, q in zip(wall.normals, wall.place, strict=True))
+            ),
         ),
     )
-    inflows = _inflows(scene, geometry)
+    gaps = _gaps(scene)
     turned = problem.speed < 0
     if turned:
         ends = problem.shape.breaks[0] + problem.shape.breaks[-1]
         at_rest = mirrored(at_rest)
         modes = tuple(_mirrored(normal, ends) for normal in modes)
-        inflows = tuple(replace(one, covers=_mirrored(one.covers, ends)) for one in inflows)
+        gaps = tuple(mirrored_inflow(one, ends) for one in gaps)
+    half = _half(at_rest) if even else None
+    count = max(cells[1] // 2, 1)
+    upper = None if half is None else grid(half.shape, (cells[0], count))
     whole = MovingFilm(
         problem=at_rest,
-        grid=grid(at_rest.shape, (cells[0], 2 * max(cells[1] // 2, 1))),
+        grid=grid(at_rest.shape, (cells[0], 2 * count)) if upper is None else doubled(upper),
         normals=modes,
-        inflows=inflows,
+        inflows=(*gaps, *at_rest.inflows),
         ambient=-scene.lubricant.cavitation_pressure,
         ruptures=ruptures,
         contact=contact,
     )
-    return FreeFilm(scene=scene, wall=wall, whole=whole, solved=_half(scene, whole, cells), turned=turned)
+    solved = whole if half is None or upper is None else replace(whole, problem=half, grid=upper, halved=True)
+    return FreeFilm(scene=scene, wall=wall, whole=whole, solved=solved, turned=turned)
 
 
 def _mirrored(function: Callable[[Array, Array], Values], ends: float) -> Callable[[Array, Array], Values]:
     return lambda x, y: function(ends - x, y)
 
 
-def _half(scene: Bearing, whole: MovingFilm, cells: tuple[int, int]) -> MovingFilm:
-    """The half of the width beyond its middle, if the film is symmetric about it; else the whole film."""
-    geometry, shape = scene.geometry, whole.problem.shape
-    assert isinstance(geometry, Lobes)
-    sides = scene.boundary.sides
+def _even(scene: Bearing, geometry: MovingWall, shape: Shape) -> bool:
+    """Whether the film has a width and is symmetric about the middle of it in equilibrium."""
+    sides, load = scene.boundary.sides, scene.load
     rough = scene.roughness is not None and shape.roughness is None
-    if shape.wide or rough or not geometry.symmetric or sides.low != sides.high:
-        return whole
+    turning = load is not None and load.moment_x != 0
+    even = geometry.symmetric and in_the_middle(scene.supply_patches, shape.across)
+    return even and sides.low == sides.high and not (shape.wide or rough or turning)
+
+
+def _half(whole: Problem) -> Problem:
+    """The half of the width beyond its middle."""
+    shape = whole.shape
     low, high = shape.across
-    half = replace(shape, across=((low + high) / 2, high))
-    return replace(
-        whole,
-        problem=replace(whole.problem, shape=half),
-        grid=grid(half, (cells[0], max(cells[1] // 2, 1))),
-        halved=True,
-    )
+    middle = (low + high) / 2
+    steps = tuple(step for step in shape.steps_across if step > middle)
+    return replace(whole, shape=replace(shape, across=(middle, high), steps_across=steps))
 
 
-def _inflows(scene: Bearing, geometry: Lobes) -> tuple[Inflow, ...]:
+def _gaps(scene: Bearing) -> tuple[Inflow, ...]:
     """The gaps between lobes, in which the pressure is that of the inlet."""
-    edge, pressure = AT_EDGE * geometry.length, scene.inlet_pressure - scene.lubricant.cavitation_pressure
+    geometry = scene.geometry
+    assert isinstance(geometry, MovingWall)
+    length = scene.geometry.length
+    edge, pressure = AT_EDGE * length, scene.inlet_pressure - scene.lubricant.cavitation_pressure
 
     def gap(begin: float, end: float) -> Inflow:
         def covers(x: Array, y: Array) -> NDArray[np.bool_]:
-            turned = np.mod(x - begin + edge, geometry.length)
+            turned = np.mod(x - begin + edge, length)
             return np.asarray((turned <= end - begin + 2 * edge) & np.isfinite(y))
 
         return Inflow(covers=covers, pressure=pressure)
@@ -187,12 +208,29 @@ def _inflows(scene: Bearing, geometry: Lobes) -> tuple[Inflow, ...]:
 
 
 def load_of_scene(scene: Bearing) -> Array:
-    """The load of a scene on each coordinate of its wall, N (N/m if infinitely wide); 0 without a load."""
+    """The load of a scene on each coordinate of its geometry, N (N/m if infinitely wide); 0 without a load."""
     geometry, load = scene.geometry, scene.load
+    size = 0.0 if scene.load_pressure is None else scene.load_pressure * scene.nominal_area
+    if isinstance(geometry, Pivoted | PivotedSector):
+        return geometry.forces(size, (0.0, 0.0) if load is None else (load.moment_x, load.moment_y))
     assert isinstance(geometry, Lobes)
     force = np.zeros(len(geometry.wall.names))
-    if load is None or scene.load_pressure is None:
-        return force
-    size = scene.load_pressure * scene.nominal_area
-    force[:2] = size * np.cos(load.angle), size * np.sin(load.angle)
+    if load is not None:
+        force[:2] = size * np.cos(load.angle), size * np.sin(load.angle)
     return force
+
+
+def _started(scene: Bearing, contact: ContactLaw | None) -> Lobes | Pivoted | PivotedSector:
+    """The shape from which the equilibrium is sought: a shaft as given or in the middle, a pad that narrows to half.
+
+    Infinitely wide such pads carry 0.16 η u L²/h². Walls that may touch start apart.
+    """
+    geometry, pressure = scene.geometry, scene.load_pressure
+    assert isinstance(geometry, Lobes | Pivoted | PivotedSector)
+    if not isinstance(geometry, Pivoted | PivotedSector) or pressure is None:
+        return geometry
+    share = 1.0 if geometry.width is None else 1 / (1 + (geometry.length / geometry.width) ** 2)
+    sheared = scene.lubricant.viscosity * abs(scene.motion.speed) * geometry.length
+    film = min(math.sqrt(WEDGE_LOAD * share * sheared / pressure), MAX_FIRST_FILM * geometry.length)
+    film = film if contact is None else max(film, contact.touching)
+    return geometry.started(film, reverse=scene.motion.speed < 0)

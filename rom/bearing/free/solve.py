@@ -5,11 +5,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.equilibrium.estimate import CONTACT_FILM
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
 from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
 from roughfilm.rom.cavitation.motion.contact import ContactLaw
@@ -64,7 +67,7 @@ class FreeSolution:
 
 def placed(film: FreeFilm, instant: Instant) -> Bearing:
     """The scene with its wall at the coordinates of an instant."""
-    assert isinstance(film.scene.geometry, Lobes)
+    assert isinstance(film.scene.geometry, MovingWall)
     return film.scene.moved(film.scene.geometry.at(instant.place))
 
 
@@ -127,13 +130,24 @@ def solve_free(
     return FreeSolution(films=tuple(films[::-1]), instants=tuple(instants[::-1]), solved=tuple(solved))
 
 
-def closer(film: FreeFilm, instant: Instant, step: float, *, tolerance: float) -> Instant:
-    """The film whose wall has moved by ``step``, m, in the direction in which a growing load moves it."""
-    stiffness = coefficients(film.solved, instant, speed=film.solved.problem.speed).stiffness
-    count = instant.place.size
+def stiffness_of(film: FreeFilm, instant: Instant) -> Array:
+    """The stiffness of film and contact; that of contact alone at rest, where no flow determines the cavities."""
+    try:
+        return coefficients(film.solved, instant, speed=film.solved.problem.speed).stiffness
+    except ConvergenceError:
+        return film.solved.contact_at(instant.place).stiffness
+
+
+def approach(film: FreeFilm, instant: Instant, stiffness: Array) -> Array:
+    """The change of the coordinates by a growing load that moves the wall by at most 1 m anywhere."""
     force = film.solved.force(instant.state.pressure) + film.solved.contact_at(instant.place).force
     moved = np.linalg.lstsq(stiffness, -force, rcond=None)[0]
-    moved *= step / float(np.abs(film.solved.at_nodes @ moved).max())
+    return np.asarray(moved / float(np.abs(film.solved.at_nodes @ moved).max()))
+
+
+def closer(film: FreeFilm, instant: Instant, step: float, *, tolerance: float) -> Instant:
+    """The film whose wall has moved by ``step``, m, in the direction in which a growing load moves it."""
+    moved, count = step * approach(film, instant, stiffness_of(film, instant)), instant.place.size
     drive = Drive(
         speed=film.solved.problem.speed,
         force=np.zeros(count),
@@ -149,16 +163,17 @@ def expected_place(scene: Bearing) -> tuple[float, ...]:
     Where asperities touch, the film is at least ``CONTACT_FILM`` times the rms height.
     """
     film, geometry = free_film(scene, (COARSE_CELLS, COARSE_CELLS // ACROSS)), scene.geometry
-    assert isinstance(geometry, Lobes)
-    rough = scene.roughness is not None and scene.asperities is not None
-    least = CONTACT_FILM * scene.roughness.rms if rough and scene.roughness is not None else 0.0
+    assert isinstance(geometry, Lobes | Pivoted | PivotedSector)
+    least = 0.0 if scene.asperities is None or scene.roughness is None else CONTACT_FILM * scene.roughness.rms
     try:
         place = equilibrium(film, None, tolerance=1e-8).place
     except (InputError, ConvergenceError):
         if not least:
             raise
         place = film.wall.place.copy()
-        place[:2] = geometry.clearance * film.load[:2] / np.hypot(*film.load[:2])
-    if geometry.at(place).thinnest < least:
-        place = geometry.at(place).at_film(min(least, geometry.widest)).wall.place
+        if isinstance(geometry, Lobes):
+            place[:2] = geometry.clearance * film.load[:2] / np.hypot(*film.load[:2])
+    there = geometry.at(place)
+    if there.thinnest < least:
+        place = there.at_film(min(least, geometry.widest)).wall.place[: place.size]
     return tuple(float(value) for value in place)

@@ -13,7 +13,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Angle, InUnit, plain_number
 from roughfilm.rom.bearing.geometry.journal import Ratio, Shaft
 from roughfilm.rom.bearing.geometry.pad import known_film
-from roughfilm.rom.bearing.geometry.rigid import RigidWall
+from roughfilm.rom.bearing.geometry.rigid import MovingWall, RigidWall
 from roughfilm.rom.bearing.geometry.ring import FITTING, Fraction
 from roughfilm.rom.cavitation.shape import Shape
 
@@ -27,7 +27,7 @@ Arc = Annotated[float, InUnit("rad")]
 Signed = Annotated[float, BeforeValidator(plain_number)]
 
 
-class Lobes(Shaft):
+class Lobes(Shaft, MovingWall):
     """A shaft in a bore of equal arcs, in coordinates that are fixed to the bore.
 
     Angles θ count from the x axis towards the y axis, as the shaft turns at a positive speed; y points upwards, and x
@@ -149,14 +149,14 @@ class Lobes(Shaft):
         """The angle θ at positions x, rad."""
         return np.asarray(self.start + x / self.radius)
 
-    def _lobe(self, x: Array) -> Array:
-        """The number of the lobe at positions x; that before a gap inside it."""
+    def lobe(self, x: Array) -> Array:
+        """The number from 0 of the lobe at positions x; that before a gap inside it."""
         turned = np.mod(x / self.radius, 2 * math.pi) if not self.single else x / self.radius
         return np.asarray(np.clip(np.floor(turned * self.lobes / (2 * math.pi) + 1e-12), 0, self.lobes - 1))
 
     def _from(self, x: Array, position: float) -> Array:
         """The angle from the given position, 0 to 1, along the lobe at positions x, rad."""
-        return np.asarray(self.angle(x) - self.start - self._lobe(x) * 2 * math.pi / self.lobes - position * self.turn)
+        return np.asarray(self.angle(x) - self.start - self.lobe(x) * 2 * math.pi / self.lobes - position * self.turn)
 
     def bore(self, x: Array, y: Array) -> Array:
         """The film thickness of a centred shaft with its misalignment, m."""
@@ -177,7 +177,7 @@ class Lobes(Shaft):
         pads = 0 if self.pivot is None else self.lobes
 
         def tilted(lobe: int, x: Array, y: Array) -> Array:
-            inside = self._lobe(x) == lobe
+            inside = self.lobe(x) == lobe
             return np.where(inside, -self.radius * np.sin(self._from(x, self.pivot or 0.0)), 0.0) + 0 * y
 
         known = np.array(self.eccentricity or (0.0, 0.0)) * self.clearance
@@ -199,6 +199,11 @@ class Lobes(Shaft):
         return self.model_copy(
             update={"eccentricity": (x / self.clearance, y / self.clearance), "tilts": tuple(tilts) or None}
         )
+
+    @property
+    def tilted(self) -> bool:
+        """Whether the tilts of the pads are given."""
+        return self.tilts is not None
 
     @property
     def symmetric(self) -> bool:

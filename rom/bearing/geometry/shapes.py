@@ -11,6 +11,7 @@ from roughfilm.rom.bearing.geometry.given import Given
 from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pad import Pad
+from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
 from roughfilm.rom.bearing.geometry.ring import Sector, Washer
 
 Count = Annotated[int, Field(strict=True, ge=1, le=10_000)]
@@ -177,6 +178,8 @@ AnyShape = (
     | Given
     | Journal
     | Lobes
+    | Pivoted
+    | PivotedSector
     | Sector
     | Washer
 )
@@ -190,6 +193,8 @@ SHAPES: dict[str, type[Part]] = {
     "given": Given,
     "journal": Journal,
     "lobes": Lobes,
+    "pivoted": Pivoted,
+    "pivoted_sector": PivotedSector,
     "sector": Sector,
     "washer": Washer,
 }

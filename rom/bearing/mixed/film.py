@@ -8,7 +8,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.film import FlooredFlowFactors
-from roughfilm.rom.bearing.geometry.journal import Journal
+from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load
 from roughfilm.rom.bearing.quantities import load_of, nominal_area, scene_positions
@@ -24,6 +24,9 @@ from roughfilm.rom.cavitation.solve import Solution, solve
 
 RESIDUAL_FRACTION = 0.1
 """Fraction of the error of the load that the residuals of the film may cause."""
+
+SEPARATION_STEP = 1e-5
+"""Step of the separation over that of first contact, over which the slope of the mean gap is taken."""
 
 MIN_RESIDUAL = 1e-12
 """Smallest residual that is required of a film."""
@@ -99,11 +102,6 @@ class MixedFilm:
         """The shape of the film at the reference film thickness."""
         return self.scene.geometry.at_film(self._reference).film_shape()
 
-    @property
-    def boundary_friction(self) -> float:
-        """The coefficient of boundary friction; 0 without asperities."""
-        return 0.0 if self.scene.asperities is None else self.scene.asperities.friction
-
     @cached_property
     def area(self) -> float:
         """The nominal area, m² (m if infinitely wide)."""
@@ -171,7 +169,7 @@ class MixedFilm:
     def contact_load(self, film: float) -> float:
         """The load of the asperities at a film thickness, N."""
         scene = self.scene_at(film, 0.0)
-        if not isinstance(scene.geometry, Journal):
+        if not isinstance(scene.geometry, Shaft):
             above, areas = self._contact_heights
             return float((areas * self.asperities.contact_pressure(film + above)).sum())
         force = asperity_load(scene.geometry.film_shape(), self.grid, self.asperities).force
@@ -179,9 +177,21 @@ class MixedFilm:
 
 
 def mixed_problem(scene: Bearing, asperities: Asperities) -> Problem:
-    """The problem of a film with the flow factors of its asperities."""
+    """The problem of a film with the flow factors of its asperities, whose mean gap changes with the separation."""
     problem = scene.problem()
-    return replace(problem, shape=replace(problem.shape, roughness=FlooredFlowFactors(asperities, asperities.mean_gap)))
+    shape = replace(problem.shape, roughness=FlooredFlowFactors(asperities, asperities.mean_gap))
+    opening, thickness = problem.opening, problem.shape.thickness
+    if opening is None:
+        return replace(problem, shape=shape)
+    step = SEPARATION_STEP * asperities.touching
+
+    def of_gap(x: Array, y: Array) -> Array:
+        """The rate of the mean gap, m/s, which in plastic contact falls slower than the separation."""
+        h = thickness(x, y)
+        slope = (asperities.mean_gap(h + step) - asperities.mean_gap(h)) / step
+        return np.asarray(opening(x, y) * slope)
+
+    return replace(problem, shape=shape, opening=of_gap)
 
 
 def mixed_state(scene: Bearing, solution: Solution, contact: AsperityLoad) -> MixedState:

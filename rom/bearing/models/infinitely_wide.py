@@ -24,6 +24,8 @@ def applies(scene: Bearing) -> Applicability:
     width = scene.geometry.width
     if width is None:
         return Applicability(applies=False, reason="the bearing is infinitely wide; use reynolds_cavitating")
+    if scene.supply:
+        return Applicability(applies=False, reason="supplies end before the sides, which one line lacks")
     geometry = scene.geometry
     if (isinstance(geometry, Ring) and geometry.endless) or (isinstance(geometry, Lobes) and geometry.joined):
         return Applicability(

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.supply.tables import MAX_SUPPLIES
 
 REPORTED: Mapping[str, str] = {
     "load": "load",
@@ -21,10 +22,25 @@ REPORTED: Mapping[str, str] = {
     "outlet_flow": "flow out",
     "bearing_outlet_flow": "flow out, whole bearing",
     "outlet_flow_per_width": "flow out per width",
+    "displaced_flow": "flow displaced by the approach",
+    "bearing_displaced_flow": "flow displaced by the approach, whole bearing",
+    "displaced_flow_per_width": "flow displaced by the approach per width",
     "side_leakage": "side leakage",
     "bearing_side_leakage": "side leakage, whole bearing",
     "side_leakage_low": "side leakage, low side",
     "side_leakage_high": "side leakage, high side",
+    "supply_flow": "flow supplied",
+    "bearing_supply_flow": "flow supplied, whole bearing",
+    "supply_flow_per_width": "flow supplied per width",
+    **{
+        name: title
+        for number in range(1, MAX_SUPPLIES + 1)
+        for name, title in {
+            f"supply_{number}_flow": f"flow of supply {number}",
+            f"supply_{number}_flow_per_width": f"flow of supply {number} per width",
+            f"supply_{number}_pressure": f"pressure behind supply {number}",
+        }.items()
+    },
     "friction": "friction",
     "bearing_friction": "friction, whole bearing",
     "friction_per_width": "friction per width",
@@ -45,6 +61,11 @@ REPORTED: Mapping[str, str] = {
     "eccentricity": "eccentricity",
     "eccentricity_x": "eccentricity along x",
     "eccentricity_y": "eccentricity along y",
+    "pivot_film": "film at the pivot",
+    "slope_x": "slope along the sliding",
+    "slope_y": "slope across the sliding",
+    "moment_x": "moment about x",
+    "moment_y": "moment about y",
     "attitude_angle": "attitude angle",
     "film_min_angle": "angle of the least film",
     "film_min_x": "place of the least film along",

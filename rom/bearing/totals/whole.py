@@ -15,7 +15,9 @@ ADDED = (
     "torque",
     "inlet_flow",
     "outlet_flow",
+    "displaced_flow",
     "side_leakage",
+    "supply_flow",
     "contact_load",
     "film_load",
 )

@@ -28,8 +28,8 @@ MIN_CORNER = 1e-3
 def film_obstacle(scene: Bearing) -> str | None:
     """The reason for which the flow across the film of a bearing is not resolved; None for a pad where it is.
 
-    It is resolved in infinitely wide pads with a smooth wall, of a given film, with a flooded inlet and a liquid of
-    constant density and viscosity.
+    It is resolved in infinitely wide pads with a smooth wall, of a given film, with a flooded inlet, without supplies,
+    and with a liquid of constant density and viscosity.
     """
     geometry, lubricant, theta = scene.geometry, scene.lubricant, scene.boundary.inlet.theta
     if not isinstance(geometry, Pad):
@@ -46,6 +46,10 @@ def film_obstacle(scene: Bearing) -> str | None:
         return f"the viscosity changes with pressure ({lubricant.piezoviscosity.law}), which needs reynolds_cavitating"
     if theta is not None and theta < 1:
         return f"the inlet is starved (theta = {theta:g}), which needs a model with cavitation"
+    if scene.motion.approach != 0:
+        return "the walls approach each other, which needs a model of the Reynolds equation"
+    if scene.supply:
+        return "lubricant is supplied inside of the film"
     if scene.motion.speed == 0:
         return "the wall does not slide"
     return None

@@ -33,3 +33,16 @@ def flow_across(solution: Solution) -> Array:
     north = net.conductance(solution.problem.mobility(state.pressure)[0])[1]
     flow = -north * (np.roll(state.pressure, -1, axis=1) - state.pressure)
     return np.asarray(flow if net.oblique is None else flow + _oblique_flows(solution)[1])
+
+
+def node_balances(solution: Solution) -> Array:
+    """Outflow minus inflow of every node with what it stores, m³/s: at a fixed node what enters from outside."""
+    net = solution.network
+    along, across = flow_along(solution), flow_across(solution)
+    excess = solution.problem.compression(solution.state.pressure)[0]
+    stored = net.storage * (solution.state.fill + excess) - net.stored
+    if not net.periodic[0]:
+        along[-1] = 0.0
+    if not net.periodic[1]:
+        across[:, -1] = 0.0
+    return np.asarray(along - np.roll(along, 1, axis=0) + across - np.roll(across, 1, axis=1) + stored)

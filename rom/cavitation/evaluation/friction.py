@@ -11,7 +11,11 @@ from roughfilm.rom.cavitation.evaluation.filling import carried
 from roughfilm.rom.cavitation.evaluation.flows import flow_along
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.oblique import wetness
+from roughfilm.rom.cavitation.problem import Inflow
 from roughfilm.rom.cavitation.solve import Solution
+
+RECESS_FRICTION = 4.0
+"""Friction of a closed recess over ηu/(h + d): a pressure gradient drives back what the sliding wall carries along."""
 
 
 def friction(solution: Solution) -> float:
@@ -65,12 +69,32 @@ def _pull(solution: Solution) -> Array:
     with np.errstate(divide="ignore", invalid="ignore"):
         gradient = fill / mean if rough is None else _shear_factor(solution, rough, fill)
         shear = np.where(mean > 0, problem.viscosity * speed * gradient, 0.0)
-    shear = shear * (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
+    thicker = (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
     rise = np.roll(solution.state.pressure, -1, axis=0) - solution.state.pressure
-    pull = np.asarray(shear * stretch + mean / 2 * rise)
+    pull = np.asarray(shear * thicker * stretch + mean / 2 * rise)
+    for inflow in problem.inflows:
+        share = _share_inside(solution, inflow)
+        recess = RECESS_FRICTION * problem.viscosity * speed * thicker / (solution.faces.thickness + inflow.depth)
+        pull += share * (recess * stretch - pull)
     if problem.shape.idle:
         pull[problem.shape.is_idle(grid.x + grid.spacing_x / 2)] = 0.0
     return pull
+
+
+def _share_inside(solution: Solution, inflow: Inflow) -> Array:
+    """The part of the width of each face towards i + 1 that lies in an inflow, shape (nx, ny)."""
+    grid, net = solution.grid, solution.network
+    covered = inflow.covers(*np.meshgrid(grid.x, grid.y, indexing="ij"))
+    cells = covered & np.roll(covered, -1, axis=0)
+    if not net.periodic[0]:
+        cells[-1] = False
+    if grid.shape[1] == 1:
+        return cells.astype(float)
+    cells = cells & np.roll(cells, -1, axis=1)
+    if not net.periodic[1]:
+        cells[:, -1] = False
+    halves = cells * grid.spacing_y / 2
+    return np.asarray((halves + np.roll(halves, 1, axis=1)) / grid.volume_y)
 
 
 def _shear_factor(solution: Solution, rough: Averaged, fill: Array) -> Array:

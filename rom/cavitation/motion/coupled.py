@@ -25,6 +25,14 @@ MAX_APPROACH = 0.6
 FORCE_TOLERANCE = 1e-9
 """Net force on a coordinate over the sum of the sizes of its parts at which the iteration stops."""
 
+NEAR_LINEAR, MIN_PASSABLE = 0.5, 1e-3
+"""Relative change by which the flow through a restrictor may differ from a linear one in a step, and the least part."""
+STALLED = 0.5
+"""Ratio of successive residuals from which on they are the round-off of the pressures, or nearly so."""
+
+LEAST_FLOW = 1e-3
+"""Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
+
 COLUMNS_KEPT = 5
 """Number of steps for which the derivatives by the coordinates are kept: they change little from step to step."""
 
@@ -136,6 +144,12 @@ class Trial:
         return np.where(self.kind >= FIXED, 0.0, self.linear.balance)
 
     @property
+    def entering(self) -> float:
+        """The mean of what enters and what leaves through fixed nodes, m³/s, at least ``LEAST_FLOW`` of a face."""
+        given = self.linear.balance[self.kind >= FIXED]
+        return max(float(np.abs(given).sum()) / 2, LEAST_FLOW * self.largest)
+
+    @property
     def inflow_excess(self) -> Array:
         """What each inflow behind a restrictor gives to the film minus what passes its restrictor, m³/s."""
         film, given = self.film, np.zeros(len(self.film.restricted))
@@ -143,18 +157,21 @@ class Trial:
             given[row] = film.sides * float(self.linear.balance[film.covered[number]].sum()) - self._passed(number)[0]
         return given
 
-    def residual(self, tolerance: float) -> float:
-        """The largest of these and of the balances of the nodes, over the largest flow through a face.
+    def unbalanced(self, *, round_off: bool) -> tuple[float, float]:
+        """The largest balance over the largest flow through a face, and the sum of all over the flow through the film.
 
-        If it is above the tolerance, the balances below the round-off of the pressures are left out: at rest, nothing
-        flows.
+        Parameters
+        ----------
+        round_off : whether balances below the round-off of the unknowns, and of the mean pressure of the load, count
+            as 0: at rest nothing else flows.
         """
-        rest, excess = np.abs(self.rest), float(np.abs(self.inflow_excess).max(initial=0.0))
-        residual = max(float(rest.max()), excess) / self.largest
-        if residual <= tolerance:
-            return residual
-        rounding = BALANCE_ROUNDOFF * np.abs(self.linear.centre * self.pressure)
-        return max(float(rest[rest > rounding].max(initial=0.0)), excess) / self.largest
+        rest, excess = self.rest, float(np.abs(self.inflow_excess).max(initial=0.0))
+        if round_off:
+            loads = np.abs(self.drive.force) / np.abs(self.film.weights).sum(axis=0)
+            unknowns = np.where(self.kind == CAVITY, 1.0, np.abs(self.pressure) + loads.max(initial=0.0))
+            flows = np.abs(self.linear.centre) * unknowns + self.network.storage
+            rest = np.where(np.abs(rest) > BALANCE_ROUNDOFF * flows, rest, 0.0)
+        return max(float(np.abs(rest).max()), excess) / self.largest, abs(float(rest.sum())) / self.entering
 
     def _passed(self, number: int) -> tuple[float, float]:
         """The flow through the restrictor of an inflow, m³/s, and minus its derivative by the pressure behind it."""
@@ -171,7 +188,7 @@ class Trial:
     def sizes(self) -> Array:
         """The sum of the sizes of the parts of the force on each coordinate; 1 without any force."""
         film = self.film
-        parts = np.tensordot(np.abs(self.pressure - film.ambient), np.abs(film.weights), axes=2)
+        parts = np.abs(self.pressure - film.ambient).ravel() @ np.abs(film.weights)
         sizes = parts + self.contact.sizes + np.abs(self.drive.force)
         return np.where(sizes > 0, sizes, 1.0)
 
@@ -198,7 +215,7 @@ class Trial:
         film, known = self.film, (self.kind >= FIXED)[..., None]
         within = [film.covered[number] for number in film.restricted]
         columns = [self.linear.image(nodes.astype(float))[..., None] for nodes in within]
-        bands = Bands(self.linear.without(known[..., 0]), periodic=self.network.periodic[0])
+        bands = Bands(self.linear, known[..., 0], periodic=self.network.periodic[0])
         change = bands.solve(np.where(known, 0.0, np.concatenate([sources, *columns], axis=-1)))
         if not within:
             return Response(change=change, pressures=np.zeros((0, sources.shape[-1])))
@@ -217,39 +234,36 @@ class Trial:
     def force_of(self, response: Response) -> Array:
         """The changes of the force on every coordinate, shape (coordinates, sources)."""
         film = self.film
-        force = np.tensordot(
-            np.where((self.kind == FILM)[..., None], film.weights, 0.0), response.change, ((0, 1),) * 2
-        )
+        change = np.where((self.kind == FILM)[..., None], response.change, 0.0)
+        force = film.weights.T @ change.reshape(self.kind.size, -1)
         for number, pressures in zip(film.restricted, response.pressures, strict=True):
-            force += np.outer(film.weights[film.covered[number]].sum(axis=0), pressures)
+            force += np.outer(film.weights[film.covered[number].ravel()].sum(axis=0), pressures)
         return np.asarray(force)
 
-    def step(self) -> tuple[Response, Array]:
-        """The changes of the unknowns of the film, of one source, and of the free coordinates."""
+    def step(self) -> tuple[Array, Array, Array]:
+        """The changes of the unknowns of nodes, of the pressures behind restrictors, and of the free coordinates."""
         free = np.flatnonzero(self.drive.free)
-        passed = np.array([self._passed(number)[0] for number in self.film.restricted])
-        own = self.respond(-self.linear.balance[..., None], passed[:, None])
-        if not free.size:
-            return own, np.zeros(0)
         if self.columns is None:
             self.columns = self.by_coordinates()
-        moved = self.respond(-self.columns)
-        matrix = self.force_of(moved)[free] - (self.drive.stiffness + self.contact.stiffness)[np.ix_(free, free)]
-        net_force = (self.film.force(self.pressure) + self.pull + self.force_of(own)[:, 0])[free]
+        passed = np.zeros((len(self.film.restricted), 1 + free.size))
+        passed[:, 0] = [self._passed(number)[0] for number in self.film.restricted]
+        response = self.respond(-np.concatenate([self.linear.balance[..., None], self.columns], axis=-1), passed)
+        forces = self.force_of(response)[free]
+        matrix = forces[:, 1:] - (self.drive.stiffness + self.contact.stiffness)[np.ix_(free, free)]
+        net_force = (self.film.force(self.pressure) + self.pull)[free] + forces[:, 0]
         places = _solved(matrix, -net_force)
-        return Response(
-            change=own.change + (moved.change @ places)[..., None],
-            pressures=own.pressures + (moved.pressures @ places)[:, None],
-        ), places
+        weights = np.append(1.0, places)
+        return response.change @ weights, response.pressures @ weights, places
 
 
 def _solved(matrix: Array, right: Array) -> Array:
-    """The solution of a small dense system; ConvergenceError if it is singular."""
+    """The solution of a small linear system; ConvergenceError if the matrix is singular."""
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         raise ConvergenceError(
-            "motion: no force resists a motion of the wall; take another place to start from", outcome=Outcome.DIVERGED
+            "motion: the film does not resist the motion of its wall; give a mass, or a place nearer to the equilibrium",
+            outcome=Outcome.DIVERGED,
         ) from None
 
 
@@ -278,7 +292,8 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
     Parameters
     ----------
     start : an instant near the solution; its coordinates that are not free are those of the solution.
-    tolerance : residual at which the iteration stops.
+    tolerance : residual at which the iteration stops, and sum of all balances over the flow through the film; it is
+        larger where the round-off of the volumes over a short time step exceeds it.
     limit : largest number of steps.
 
     Raises
@@ -289,15 +304,21 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
     trial = trial_at(film, start, drive)
     free, whole, open_by = np.flatnonzero(drive.free), True, CLOSED * film.room(trial.place)
     residual = force_residual = np.inf
+    unbalanced = residual, residual
     for iteration in range(limit + 1):
         with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
             trial.evaluate()
-        residual = trial.residual(tolerance)
+        before, unbalanced = unbalanced, trial.unbalanced(round_off=False)
+        if unbalanced[0] > STALLED * before[0]:
+            unbalanced = trial.unbalanced(round_off=True)
+        residual, imbalance = unbalanced
+        least = max(tolerance, BALANCE_ROUNDOFF * float(trial.network.storage.max()) / trial.largest)
         net_force = np.abs(film.force(trial.pressure) + trial.pull) / trial.sizes
         force_residual = float(net_force[free].max(initial=0.0))
         if not np.isfinite(residual + force_residual):
             break
-        if residual <= tolerance and force_residual <= FORCE_TOLERANCE and whole:
+        if max(residual, imbalance) <= least and force_residual <= FORCE_TOLERANCE and whole:
+            _check_restrictors(trial)
             return Instant(
                 place=trial.place,
                 pressures=trial.pressures,
@@ -306,17 +327,17 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
                 faces=trial.faces,
                 network=trial.network,
                 balance=trial.linear.balance,
-                residual=residual,
+                residual=residual if residual <= tolerance else trial.unbalanced(round_off=True)[0],
                 force_residual=force_residual,
                 iterations=iteration,
             )
-        response, places = trial.step()
+        change, pressures, places = trial.step()
         moved = np.zeros(trial.place.size)
         moved[free] = places
-        part = MAX_APPROACH / max(film.closing(trial.place, moved), MAX_APPROACH)
+        part = MAX_APPROACH / max(film.closing(trial.place, moved), MAX_APPROACH) * _passable(trial, pressures)
         trial.place = trial.place + part * moved
-        trial.pressures[list(film.restricted)] += part * response.pressures[:, 0]
-        _advance(trial, part * response.change[..., 0])
+        trial.pressures[list(film.restricted)] += part * pressures
+        _advance(trial, part * change)
         whole = part == 1
         if not whole and film.room(trial.place) < open_by:
             residual = np.inf
@@ -334,6 +355,35 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         outcome=Outcome.UNFINISHED if finite else Outcome.DIVERGED,
         iterations=limit,
     )
+
+
+def _check_restrictors(trial: Trial) -> None:
+    """Raise ConvergenceError if a film takes in more than a restrictor passes at cavitation pressure."""
+    if trial.film.ruptures and min(trial.pressures[list(trial.film.restricted)], default=0.0) < 0:
+        raise ConvergenceError(
+            "supply: the film takes in more than a restrictor passes, and the pressure behind it falls below that of "
+            "cavitation; raise the pressure of the supply or widen the restrictor",
+            outcome=Outcome.STALLED,
+        )
+
+
+def _passable(trial: Trial, change: Array) -> float:
+    """The part, halved from 1, of a change of the pressures behind restrictors over which their flows are near linear.
+
+    Newton's method from Δp to -Δp and back would go on for ever through an orifice, whose flow changes as √Δp.
+    """
+    part = 1.0
+    for number, moved in zip(trial.film.restricted, change, strict=True):
+        inflow = trial.film.inflows[number]
+        assert inflow.restrictor is not None
+        drop = inflow.pressure - float(trial.pressures[number])
+        flow, slope = inflow.restrictor.flow(drop)
+        while part > MIN_PASSABLE:
+            linear, passed = flow - slope * part * moved, inflow.restrictor.flow(drop - part * float(moved))[0]
+            if abs(passed - linear) <= NEAR_LINEAR * max(abs(flow), abs(linear)):
+                break
+            part /= 2
+    return part
 
 
 def _advance(trial: Trial, change: Array) -> None:

@@ -1,9 +1,9 @@
 """A film between two rigid walls, one of which is displaced: its thickness is linear in a few coordinates."""
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from roughfilm.rom.cavitation.discretise import Faces, faces_of, network, positi
 from roughfilm.rom.cavitation.grid import Grid, quarters
 from roughfilm.rom.cavitation.motion.contact import ContactForce, ContactLaw, contact_force
 from roughfilm.rom.cavitation.network import Network
-from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.problem import Inflow, Problem
 from roughfilm.rom.cavitation.shape import Shape
 
 TINY = float(np.finfo(float).tiny)
@@ -22,34 +22,6 @@ TINY = float(np.finfo(float).tiny)
 
 Normal = Callable[[Array, Array], Array]
 """normal(x, y), the derivative ∂h/∂q of the film thickness by a coordinate, vectorised."""
-
-
-class Restrictor(Protocol):
-    """The resistance between a supply of lubricant and the film."""
-
-    def flow(self, drop: float) -> tuple[float, float]:
-        """The flow, m³/s, at a pressure drop, Pa, and its derivative, m³/(Pa s)."""
-        ...
-
-
-Covers = Callable[[Array, Array], NDArray[np.bool_]]
-"""covers(x, y), whether positions lie in a part of the film, vectorised."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Inflow:
-    """A part of the film in which the pressure is uniform, since lubricant is supplied there.
-
-    Attributes
-    ----------
-    covers : covers(x, y), whether positions lie in it, vectorised.
-    pressure : pressure of the supply above cavitation pressure, Pa.
-    restrictor : resistance between the supply and the film; without one the film has the pressure of the supply.
-    """
-
-    covers: Covers
-    pressure: float
-    restrictor: Restrictor | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,9 +50,12 @@ class MovingFilm:
     contact: ContactLaw | None = None
 
     @cached_property
-    def _sampled(self) -> list[tuple[Array, Array]]:
-        """h₀, and n of each coordinate in its last axis, at every position at which the film is sampled."""
-        return [(self.problem.shape.thickness(x, y), self.modes(x, y)) for x, y in positions(self.grid)]
+    def _sampled(self) -> tuple[Array, Array, list[tuple[int, ...]]]:
+        """h₀, and n of each coordinate in its last axis, at all positions of samples; the shape of each of these."""
+        places = list(positions(self.grid))
+        rest = np.concatenate([np.asarray(self.problem.shape.thickness(x, y)).ravel() for x, y in places])
+        modes = np.concatenate([self.modes(x, y).reshape(-1, len(self.normals)) for x, y in places])
+        return rest, modes, [x.shape for x, _ in places]
 
     def modes(self, x: Array, y: Array) -> Array:
         """∂h/∂q of each coordinate at positions, in the last axis."""
@@ -120,7 +95,11 @@ class MovingFilm:
 
     def faces(self, place: Array) -> Faces:
         """The film sampled on the grid at coordinates q."""
-        return faces_of((rest + modes @ place for rest, modes in self._sampled), self.shape(place), self.grid)
+        rest, modes, shapes = self._sampled
+        counts = [math.prod(shape) for shape in shapes]
+        parts = np.split(rest + modes @ place, np.cumsum(counts)[:-1])
+        thickness = (part.reshape(shape) for part, shape in zip(parts, shapes, strict=True))
+        return faces_of(thickness, self.shape(place), self.grid)
 
     def network(
         self,
@@ -158,7 +137,7 @@ class MovingFilm:
 
     def force(self, pressure: Array) -> Array:
         """∫ (p - p_ambient) ∂h/∂q dA of each coordinate, N (N m of an angle), from p at the nodes, Pa."""
-        return np.asarray(np.tensordot(pressure - self.ambient, self.weights, axes=2))
+        return np.asarray((pressure - self.ambient).ravel() @ self.weights)
 
     def contact_at(self, place: Array) -> ContactForce:
         """The forces of the contact of the walls at coordinates q, with one point in each quarter of a control volume.
@@ -204,7 +183,7 @@ class MovingFilm:
         if self.contact is None:
             yield self._at_rest + self.at_nodes @ place, self.at_nodes
             return
-        for rest, modes in (*self._sampled, self._between, self._quarters[:2]):
+        for rest, modes in (self._sampled[:2], self._between, self._quarters[:2]):
             yield rest + modes @ place - self.contact.closest, modes
 
     @cached_property
@@ -221,8 +200,8 @@ class MovingFilm:
 
     @cached_property
     def weights(self) -> Array:
-        """The force on each coordinate by a pressure at each node, m² (m³ of an angle), in the last axis."""
-        return self.sides * self.grid.areas[:, :, None] * self.at_nodes
+        """The force on each coordinate by a pressure at each node, m² (m³ of an angle), shape (nodes, coordinates)."""
+        return self.sides * self.grid.areas.reshape(-1, 1) * self.at_nodes.reshape(-1, len(self.normals))
 
     @cached_property
     def reach(self) -> Array:

@@ -1,5 +1,6 @@
 """Films in time: the wall moves as given, or as the forces on it make it move."""
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
@@ -7,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
@@ -23,6 +24,9 @@ MIN_STEP = 1e-9
 
 FIRST_STEP = 1e-3
 """First time step over the largest one: it has first order, since no earlier film is known."""
+
+ROUNDOFF = 1e-9
+"""Difference of times, over the time step, that counts as none."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,18 +140,24 @@ def march(
 
     Raises
     ------
+    InputError
+        If the end or the largest step is not finite or not ahead, the error is not positive, or the course gives a
+        speed below 0 or a number that is not finite.
     ConvergenceError
         If a film becomes thinner than ``closest``, or a step does not converge however short it is.
 
     Source: Hairer, Nørsett and Wanner 1993, Solving Ordinary Differential Equations I, III.5, for the formula;
     Elrod 1981, doi:10.1115/1.3251669, for the film.
     """
+    _check_times(start.now.time, end, largest_step, error)
     moving = start
     size = start.following or (largest_step if error is None else FIRST_STEP * largest_step)
-    while moving.now.time < end - 1e-12 * abs(end):
+    while moving.now.time < end - ROUNDOFF * min(largest_step, end - start.now.time):
         left = end - moving.now.time
-        size = min(size, largest_step, left)
-        if size < left < 2 * size:
+        size = min(size, largest_step)
+        if left < (1 + ROUNDOFF) * size:
+            size = left
+        elif left < 2 * size:
             size = left / 2
         following = _attempt(film, course, moving, size, order=2 if len(moving.past) > 1 else 1, tolerance=tolerance)
         ratio = MIN_GROWTH
@@ -168,6 +178,28 @@ def march(
         if least < closest:
             raise _stopped(moving, closest)
         yield moving
+
+
+def _check_times(begin: float, end: float, largest_step: float, error: float | None) -> None:
+    """Raise InputError for times and errors at which no march ends."""
+    if not begin < end < math.inf:
+        raise InputError(f"end: got {end!r} s; a march from {begin!r} s needs a later, finite time")
+    if not 0 < largest_step < math.inf:
+        raise InputError(f"largest_step: got {largest_step!r} s; give a finite time above 0 s")
+    if error is not None and not 0 < error < math.inf:
+        raise InputError(f"error: got {error!r}; give a finite number above 0, such as 1e-3, or None for equal steps")
+
+
+def _check_course(time: float, speed: float, place: Array, force: Array) -> None:
+    """Raise InputError for a speed against x or numbers that are not finite."""
+    if not 0 <= speed < math.inf:
+        raise InputError(
+            f"motion.speed: got {speed!r} m/s at the time {time:.6g} s; give a finite speed of at least 0 m/s, and "
+            "mirror the film for one towards decreasing x"
+        )
+    for name, values in (("place", place), ("force", force)):
+        if not np.isfinite(values).all():
+            raise InputError(f"motion.{name}: got {values.tolist()} at the time {time:.6g} s; give finite numbers")
 
 
 def _stopped(moving: Moving, closest: float) -> ConvergenceError:
@@ -191,16 +223,20 @@ def _attempt(
     """The film after a time step; None if the step does not converge."""
     time = moving.now.time + size
     rate, (place, velocity, volume) = differences(moving.past, size, order)
-    guess = np.where(course.free, predicted(moving.past, size), course.place(time))
+    speed, given, force = course.speed(time), course.place(time), course.force(time)
+    _check_course(time, speed, given, force)
+    guess = _guess(film, course, moving, given, size)
+    if guess is None:
+        return None
     acceleration = rate * place + velocity
     drive = Drive(
-        speed=course.speed(time),
-        force=course.force(time) + course.mass @ acceleration,
+        speed=speed,
+        force=force + course.mass @ acceleration,
         stiffness=course.stiffness + rate**2 * course.mass,
         free=course.free,
         storage=(rate, volume),
     )
-    start = replace(moving.instant, place=_open(film, moving.instant, guess))
+    start = replace(moving.instant, place=guess)
     try:
         instant = settled(film, start, drive, tolerance=tolerance)
     except ConvergenceError:
@@ -247,10 +283,23 @@ def predicted(past: tuple[Known, ...], size: float) -> Array:
     return np.asarray(place)
 
 
-def _open(film: MovingFilm, instant: Instant, guess: Array) -> Array:
-    """The guess of the coordinates, moved back so far that no film closes by more than half."""
-    moved = guess - instant.place
-    return np.asarray(instant.place + 0.5 / max(film.closing(instant.place, moved), 0.5) * moved)
+def _guess(film: MovingFilm, course: Course, moving: Moving, given: Array, size: float) -> Array | None:
+    """The coordinates from which a step starts; None if the given ones leave no film while the free ones rest.
+
+    The free ones are extrapolated, but so far only that no film closes by more than half.
+    """
+    last = moving.instant
+    place = np.where(course.free, last.place, given)
+    if film.room(place) <= 0:
+        if course.free.any():
+            return None
+        least = float((last.faces.thickness + film.at_nodes @ (place - last.place)).min())
+        raise InputError(
+            f"motion.place: got {given.tolist()} at the time {moving.now.time + size:.6g} s, where the film would be "
+            f"{least:.3g} m thick; keep the walls apart"
+        )
+    moved = np.where(course.free, predicted(moving.past, size) - last.place, 0.0)
+    return np.asarray(place + 0.5 / max(film.closing(place, moved), 0.5) * moved)
 
 
 def _error(past: tuple[Known, ...], course: Course, order: int) -> float:

@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.bearing.closed_forms import barus_pressure, linear_slider, rayleigh_step
+from roughfilm.rom.bearing.closed_forms.sliding import barus_pressure, linear_slider, rayleigh_step
 from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.ring import Sector
 from roughfilm.rom.bearing.geometry.shapes import Parallel, Step

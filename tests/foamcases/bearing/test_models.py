@@ -6,7 +6,7 @@ import pytest
 from roughfilm.foamcases.bearing.models.navier_stokes import MODEL as NAVIER_STOKES
 from roughfilm.foamcases.bearing.models.stokes import MODEL as STOKES
 from roughfilm.ladder import find
-from roughfilm.rom.bearing.closed_forms import linear_slider, rayleigh_step
+from roughfilm.rom.bearing.closed_forms.sliding import linear_slider, rayleigh_step
 from roughfilm.rom.ladder.request import Request
 
 pytestmark = pytest.mark.openfoam

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.rom.bearing.closed_forms import barus_pressure, linear_slider
+from roughfilm.rom.bearing.closed_forms.sliding import barus_pressure, linear_slider
 from roughfilm.rom.bearing.geometry.shapes import Linear, Parabolic
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.exact import exact

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughfilm.rom.bearing.closed_forms import linear_slider
+from roughfilm.rom.bearing.closed_forms.sliding import linear_slider
 from roughfilm.rom.ladder.model import silent
 from roughfilm.validation.finite_volumes import FinitePad, centre_line
 from roughfilm.validation.journal import Grids

@@ -8,7 +8,7 @@ import pytest
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
-from roughfilm.rom.bearing.closed_forms import linear_slider
+from roughfilm.rom.bearing.closed_forms.sliding import linear_slider
 from roughfilm.rom.ladder.model import Effect, ladder, of_kind, one_effect_away
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries

@@ -6,7 +6,7 @@ import pytest
 from places import SCENES
 
 from roughfilm.ladder import find
-from roughfilm.rom.bearing.closed_forms import linear_slider
+from roughfilm.rom.bearing.closed_forms.sliding import linear_slider
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene, read_scene

@@ -5,7 +5,7 @@ import pytest
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
-from roughfilm.rom.bearing.closed_forms import linear_slider
+from roughfilm.rom.bearing.closed_forms.sliding import linear_slider
 from roughfilm.rom.bearing.inertia import inertia
 from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.request import Request

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
-from roughfilm.rom.bearing.closed_forms import linear_slider, rayleigh_step
+from roughfilm.rom.bearing.closed_forms.sliding import linear_slider, rayleigh_step
 from roughfilm.rom.bearing.geometry.shapes import Linear, Parabolic, Step
 from roughfilm.rom.cavitation.discretise import Ends, faces, network
 from roughfilm.rom.cavitation.exact import exact

@@ -7,7 +7,8 @@ import pytest
 from scipy.integrate import quad
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.bearing.closed_forms import barus_pressure, linear_slider, rayleigh_step, sommerfeld
+from roughfilm.rom.bearing.closed_forms.journal import sommerfeld
+from roughfilm.rom.bearing.closed_forms.sliding import barus_pressure, linear_slider, rayleigh_step
 from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.shapes import Linear, Step
 from roughfilm.rom.bearing.quantities import journal_load

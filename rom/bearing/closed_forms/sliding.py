@@ -1,9 +1,12 @@
-"""Closed-form solutions of infinitely wide films of constant density."""
+"""Closed-form solutions of infinitely wide films of constant density on a wall that slides."""
 
 import math
 from dataclasses import dataclass
 
 from roughfilm.contact.foundation.errors import InputError
+
+SMALL_FALL = 1e-2
+"""Fall of the film over the film at the outlet below which a series gives the centre of pressure."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,6 +51,37 @@ def linear_slider(*, film: float, rise: float, length: float, speed: float, visc
     )
 
 
+def centre_of_pressure(ratio: float) -> float:
+    """The distance of the centre of pressure of an infinitely wide flat pad from its inlet, over the length.
+
+    A pad that tilts freely takes the ratio a of its films at the inlet and the outlet at which its pivot is there:
+
+        x/L = ((a² + 2a) ln a - (a - 1) (5a + 1)/2)/((a² - 1) ln a - 2 (a - 1)²),
+
+    which grows from 1/2 at a = 1 to 1.
+
+    Parameters
+    ----------
+    ratio : film thickness at the inlet over that at the outlet, above 1.
+
+    Raises
+    ------
+    InputError
+        If the film does not narrow.
+
+    Source: Raimondi and Boyd 1955, Transactions of the ASME 77, 321-330; Michell 1905, Zeitschrift für Mathematik und
+    Physik 52, 123-137.
+    """
+    if ratio <= 1:
+        raise InputError(f"ratio: got {ratio!r}; it must be above 1")
+    fall = ratio - 1
+    if fall < SMALL_FALL:  # the terms of the formula cancel
+        return 0.5 + fall / 10 - fall**2 / 20 + 11 * fall**3 / 350
+    logarithm = math.log1p(fall)
+    moment = ratio * (ratio + 2) * logarithm - fall * (5 * ratio + 1) / 2
+    return moment / ((ratio + 1) * fall * logarithm - 2 * fall**2)
+
+
 def rayleigh_step(
     *, film: float, rise: float, length: float, step: float, speed: float, viscosity: float
 ) -> SliderSolution:
@@ -78,42 +112,6 @@ def rayleigh_step(
     pressure = 6 * viscosity * speed * rise / (before**3 / step + film**3 / behind)
     drag = viscosity * speed * (step / before + behind / film)
     return SliderSolution(load=pressure * length / 2, pressure_max=pressure, friction=drag + pressure * rise / 2)
-
-
-@dataclass(frozen=True, kw_only=True)
-class JournalSolution:
-    """Solution of a journal bearing: load, N/m, and the angle from the narrowest place to the load line, degrees."""
-
-    load: float
-    attitude_angle: float
-
-
-def sommerfeld(
-    *, radius: float, clearance: float, eccentricity: float, speed: float, viscosity: float
-) -> JournalSolution:
-    """The solution of a full journal bearing without cavitation (full Sommerfeld condition).
-
-    W = 12 π η u (R/c)² ε/((2 + ε²) √(1 - ε²)), at an attitude angle of 90°.
-
-    Parameters
-    ----------
-    radius, clearance : radius R of the shaft and radial clearance c, m.
-    eccentricity : relative eccentricity ε, 0 <= ε < 1.
-    speed : surface speed of the shaft, m/s.
-    viscosity : viscosity, Pa s.
-
-    Raises
-    ------
-    InputError
-        If the eccentricity is out of range.
-
-    Source: Sommerfeld 1904, Zeitschrift für Mathematik und Physik 50, 97-155.
-    """
-    if not 0 <= eccentricity < 1:
-        raise InputError(f"eccentricity: got {eccentricity!r}; it must be 0 or more and below 1")
-    denominator = (2 + eccentricity**2) * math.sqrt(1 - eccentricity**2)
-    load = 12 * math.pi * viscosity * speed * (radius / clearance) ** 2 * eccentricity / denominator
-    return JournalSolution(load=load, attitude_angle=90.0)
 
 
 def barus_pressure(reduced: float, coefficient: float) -> float:

@@ -1,0 +1,221 @@
+"""The equilibrium of a bearing at a speed and a load, with its stiffness and damping."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.dynamics.whirl import Whirl, condensed, rigid_whirl, whirl_of
+from roughfilm.rom.bearing.free.equilibrium import holding
+from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.geometry.journal import Shaft
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.evaluation.friction import friction
+from roughfilm.rom.cavitation.evaluation.grids import grid_uncertainty
+from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
+from roughfilm.rom.cavitation.motion.coefficients import coefficients
+from roughfilm.rom.cavitation.motion.coupled import Instant
+
+ENTRIES: Mapping[int, tuple[str, ...]] = {1: ("",), 2: ("_xx", "_xy", "_yx", "_yy")}
+"""Endings of the names of the entries of a matrix by the number of its rows."""
+
+UNITS: Mapping[str, str] = {
+    **{f"stiffness{entry}": "N/m" for entries in ENTRIES.values() for entry in entries},
+    **{f"damping{entry}": "N*s/m" for entries in ENTRIES.values() for entry in entries},
+    "eccentricity_x": "m",
+    "eccentricity_y": "m",
+    "eccentricity_ratio": "1",
+    "attitude_angle": "deg",
+    "film_min": "m",
+    "pressure_max": "Pa",
+    "power_loss": "W",
+    "side_flow": "m^3/s",
+    "sommerfeld_number": "1",
+    "whirl_ratio": "1",
+    "critical_mass": "kg",
+}
+"""Units of the numbers of a point of a bearing with a width."""
+
+PER_WIDTH = {"N/m": "N/m^2", "N*s/m": "N*s/m^2", "W": "W/m", "kg": "kg/m"}
+"""Units of the numbers of an infinitely wide bearing in place of others."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DynamicPoint:
+    """The equilibrium of a bearing at a speed and a load.
+
+    The film exerts the force δF = -K δq - B δq' on a wall that moves by δq from the equilibrium: a shaft along x and y,
+    a pad towards the other wall.
+
+    Attributes
+    ----------
+    pressure : load over the nominal area, Pa.
+    load : load, N (N/m if infinitely wide).
+    speed : sliding speed, m/s, above 0.
+    rotation : rotational speed ω, rad/s; 0 where nothing turns.
+    numbers : value of each quantity by its name, in SI units.
+    uncertainty : uncertainty of each of them; infinite where it is unknown.
+    residual : larger of the relative residuals of the film and of the forces.
+    cpu_s : CPU time, s.
+    """
+
+    pressure: float
+    load: float
+    speed: float
+    rotation: float
+    numbers: Mapping[str, float]
+    uncertainty: Mapping[str, float] = field(default_factory=dict)
+    residual: float
+    cpu_s: float
+
+    @property
+    def stiffness(self) -> Array:
+        """K, N/m (N/m² if infinitely wide), shape (2, 2) of a shaft: rows are forces, columns displacements."""
+        return self._matrix("stiffness")
+
+    @property
+    def damping(self) -> Array:
+        """B, N s/m (N s/m² if infinitely wide), shape (2, 2) of a shaft."""
+        return self._matrix("damping")
+
+    def _matrix(self, name: str) -> Array:
+        count = 1 if name in self.numbers else 2
+        return np.array([self.numbers[f"{name}{entry}"] for entry in ENTRIES[count]]).reshape(count, count)
+
+    def __getitem__(self, name: str) -> Quantity:
+        """A quantity by its name, with the unit of a bearing with a width."""
+        uncertainty = self.uncertainty.get(name, math.inf)
+        return Quantity(
+            value=self.numbers[name], unit=UNITS[name], uncertainty=uncertainty if math.isfinite(uncertainty) else None
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class GridPoint:
+    """The numbers of a point on one grid without the whirl, and the whirl, which a wall that does not turn lacks."""
+
+    cells: float
+    numbers: Mapping[str, float]
+    whirl: Whirl | None
+
+
+def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
+    """The numbers of an equilibrium on its grid.
+
+    Parameters
+    ----------
+    ratio : frequency of the motion for which pads that tilt are condensed, over that of the rotation.
+    """
+    scene, part = film.scene, film.free | ~film.wall.turns
+    kept, among = ~film.wall.turns[part], np.ix_(part, part)
+    rotation = rotation_of(scene, scene.motion.speed)
+    whole = coefficients(film.solved, instant, speed=film.solved.problem.speed)
+    stiff = whole.stiffness + holding(film, film.load)
+    at = partial(condensed, stiff[among], whole.damping[among], kept)
+    stiffness, damping = at(ratio * rotation)
+    solution = film.solution(instant)
+    numbers = {
+        **dict(zip(named("stiffness", len(stiffness)), map(float, stiffness.flat), strict=True)),
+        **dict(zip(named("damping", len(damping)), map(float, damping.flat), strict=True)),
+        "film_min": scene.geometry.at(instant.place).thinnest,
+        "pressure_max": peak_pressure(solution) + scene.lubricant.cavitation_pressure,
+        "power_loss": abs(scene.motion.speed) * friction(solution),
+    }
+    if not scene.wide:
+        numbers["side_flow"] = side_flow(film, instant)
+    whirl = None
+    if isinstance(scene.geometry, Shaft):
+        numbers |= shaft_numbers(film, instant)
+        whirl = rigid_whirl(stiffness, damping) if kept.all() else whirl_of(at, rotation)
+    return GridPoint(
+        cells=math.prod(count for count in film.solved.grid.shape if count > 1) ** 0.5, numbers=numbers, whirl=whirl
+    )
+
+
+def named(matrix: str, rows: int) -> list[str]:
+    """The names of the entries of a matrix, row by row."""
+    return [f"{matrix}{entry}" for entry in ENTRIES[rows]]
+
+
+def rotation_of(scene: Bearing, speed: float) -> float:
+    """The rotational speed ω of a sliding speed, rad/s; 0 where nothing turns."""
+    radius = scene.turning_radius
+    return 0.0 if radius is None else abs(speed) / radius
+
+
+def shaft_numbers(film: FreeFilm, instant: Instant) -> dict[str, float]:
+    """The place of a shaft and its Sommerfeld number S = ηN/p (R/c)².
+
+    The attitude angle counts from the direction of the load in the direction of rotation.
+    """
+    scene, (x, y), force = film.scene, instant.place[:2], film.load[:2]
+    geometry = scene.geometry
+    assert isinstance(geometry, Shaft)
+    turned = math.remainder(math.atan2(y, x) - math.atan2(force[1], force[0]), 2 * math.pi)
+    specific = math.hypot(*force) / scene.nominal_area
+    return {
+        "eccentricity_x": float(x),
+        "eccentricity_y": float(y),
+        "eccentricity_ratio": math.hypot(x, y) / geometry.clearance,
+        "attitude_angle": math.degrees(math.copysign(1.0, scene.motion.speed) * turned),
+        "sommerfeld_number": scene.lubricant.viscosity
+        * scene.revolutions
+        / specific
+        * (geometry.radius / geometry.clearance) ** 2,
+    }
+
+
+def side_flow(film: FreeFilm, instant: Instant) -> float:
+    """The flow that leaves through the sides, m³/s, from the balances of the nodes there.
+
+    What enters through the sides elsewhere is not subtracted; grooves that end at the sides do not count.
+    """
+    solved = film.solved
+    at_side = np.zeros(instant.balance.shape, dtype=bool)
+    inner = slice(None) if instant.network.periodic[0] else slice(1, -1)
+    at_side[inner, [-1] if solved.halved else [0, -1]] = True
+    for nodes in solved.covered:
+        at_side &= ~nodes
+    return solved.sides * float(np.maximum(-instant.balance[at_side], 0.0).sum())
+
+
+def finished(points: Sequence[GridPoint], rotation: float) -> tuple[dict[str, float], dict[str, float]]:
+    """The numbers on the finest grid and their uncertainties.
+
+    Those of mass and frequency of a whirl are had from 1/M and ν², which are finite where there is no whirl.
+
+    Parameters
+    ----------
+    points : the point on each grid, from fine to coarse; a single one has no uncertainty.
+    rotation : rotational speed ω, rad/s.
+    """
+    cells, finest = [point.cells for point in points], points[0]
+    numbers = dict(finest.numbers)
+    uncertainty = {
+        name: grid_uncertainty(cells, [point.numbers[name] for point in points]) if len(points) > 1 else math.inf
+        for name in numbers
+    }
+    whirls = [point.whirl for point in points if point.whirl is not None]
+    if not whirls:
+        return numbers, uncertainty
+    inverse, squared = ([getattr(whirl, name) for whirl in whirls] for name in ("inverse_mass", "frequency_squared"))
+    numbers["critical_mass"] = 1 / inverse[0] if inverse[0] > 0 else math.inf
+    numbers["whirl_ratio"] = math.sqrt(max(squared[0], 0.0)) / rotation if math.isfinite(squared[0]) else math.nan
+    uncertainty["critical_mass"] = _after(lambda value: 1 / value if value > 0 else math.inf, cells, inverse)
+    uncertainty["whirl_ratio"] = _after(lambda value: math.sqrt(max(value, 0.0)) / rotation, cells, squared)
+    return numbers, uncertainty
+
+
+def _after(function: Callable[[float], float], cells: Sequence[float], values: Sequence[float]) -> float:
+    """The uncertainty of a monotonic function of a value, from both ends of its interval; infinite if it is unknown."""
+    if len(values) < 2 or not all(map(math.isfinite, values)):
+        return math.inf
+    here, error = function(values[0]), grid_uncertainty(cells, values)
+    ends = function(values[0] - error), function(values[0] + error)
+    if here == ends[0] == ends[1]:
+        return 0.0
+    return max(abs(end - here) for end in ends) if math.isfinite(here) else math.inf

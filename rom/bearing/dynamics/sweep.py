@@ -1,0 +1,256 @@
+"""Equilibria, stiffness and damping of a bearing over speed and load."""
+
+import math
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from roughfilm.contact.foundation.brief import brief
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, grid_point, rotation_of
+from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
+from roughfilm.rom.bearing.free.film import FreeFilm, free_film
+from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.scene import Bearing, BearingLoad
+from roughfilm.rom.cavitation.motion.coupled import Instant
+from roughfilm.rom.ladder.model import Progress, silent
+
+RESOLUTION, MIN_CELLS, MAX_CELLS = 128, 32, 512
+"""Default, smallest and largest number of cells along the film; there are half as many across."""
+
+COARSENING = (4, 2, 1)
+"""Cells along the finest grid over those of each grid, in the order in which they are solved."""
+
+TOLERANCE = 1e-9
+"""Residual at which a film is solved."""
+
+FREQUENCY_RATIOS = (0.0, 10.0)
+"""Range of the frequency of the motion over that of the rotation."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Omitted:
+    """A speed, m/s, at which there is no equilibrium, and why."""
+
+    speed: float
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Onset:
+    """The rotational speed at which a rigid rotor becomes unstable.
+
+    Attributes
+    ----------
+    mass : mass in the bearing, kg.
+    rotation : rotational speed, rad/s; infinite if the rotor is stable at all speeds of the points, NaN if it is
+        unstable at the lowest.
+    uncertainty : uncertainty of the speed, rad/s.
+    """
+
+    mass: float
+    rotation: float
+    uncertainty: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class DynamicCurve:
+    """The points under a load over the nominal area, ``pressure``, Pa, in order of speed.
+
+    Attributes
+    ----------
+    omitted : the speeds without a point.
+    onset : the speed at which a rotor of the given mass becomes unstable; None without a mass.
+    """
+
+    pressure: float
+    points: tuple[DynamicPoint, ...]
+    omitted: tuple[Omitted, ...] = ()
+    onset: Onset | None = None
+
+    __repr__ = brief
+
+
+def dynamics(
+    scene: Bearing,
+    speeds: Sequence[float],
+    pressures: Sequence[float],
+    *,
+    resolution: int = RESOLUTION,
+    frequency_ratio: float = 1.0,
+    mass: float | None = None,
+    known: Sequence[DynamicPoint] = (),
+    keep: Callable[[DynamicPoint], object] = lambda _point: None,
+    progress: Progress = silent,
+) -> tuple[DynamicCurve, ...]:
+    """Compute equilibrium, stiffness and damping of a bearing at several speeds and loads.
+
+    Each film starts from that of the speed before, on three grids with a quarter, half and all of the cells, from which
+    the uncertainty is estimated. Points without an equilibrium are left out.
+
+    Parameters
+    ----------
+    scene : the bearing; its eccentricity has no effect, and of its speed only the sign, of its load only the angle.
+    speeds : sliding speeds, m/s, above 0, in any order without repetition.
+    pressures : loads over the nominal area, Pa.
+    resolution : number of cells along the film; half as many are across.
+    frequency_ratio : frequency of the motion over that of the rotation for which pads that tilt are condensed.
+    mass : mass of a rigid rotor in the bearing, kg, whose onset of instability is sought.
+    known : points that are not solved again.
+    keep : called with each new point.
+
+    Raises
+    ------
+    InputError
+        If the walls of the bearing do not move freely, a speed or load is out of range, or no speed has an equilibrium
+        under a load.
+    ConvergenceError
+        If no film converges under a load.
+    """
+    ordered = _checked(scene, speeds, pressures, resolution, frequency_ratio, mass)
+    done = {(point.pressure, point.speed): point for point in known}
+    curves = []
+    for number, pressure in enumerate(sorted(pressures)):
+        started: dict[int, Instant] = {}
+        points: list[DynamicPoint] = []
+        omitted: list[Omitted] = []
+        refused: InputError | ConvergenceError | None = None
+        for count, speed in enumerate(ordered):
+            progress((number + count / len(ordered)) / len(pressures), f"{speed:.4g} m/s, {pressure * 1e-6:.4g} MPa")
+            point = done.get((pressure, speed))
+            if point is None:
+                try:
+                    point = dynamic_point(
+                        at_operation(scene, speed, pressure), pressure, resolution, frequency_ratio, started
+                    )
+                except (InputError, ConvergenceError) as error:
+                    omitted.append(Omitted(speed=speed, reason=str(error)))
+                    refused = refused or error
+                    continue
+                keep(point)
+            points.append(point)
+        if not points:
+            assert refused is not None
+            raise refused
+        onset = None if mass is None else onset_of(points, mass)
+        curves.append(DynamicCurve(pressure=pressure, points=tuple(points), omitted=tuple(omitted), onset=onset))
+    return tuple(curves)
+
+
+def at_operation(scene: Bearing, speed: float, pressure: float) -> Bearing:
+    """The bearing at a sliding speed, m/s, in the direction of its own, and under a load over its nominal area, Pa."""
+    load = scene.load or BearingLoad(pressure=pressure)
+    only = {"pressure": pressure, "force": None, "force_per_width": None}
+    return scene.at_speed(math.copysign(speed, scene.motion.speed or 1.0)).model_copy(
+        update={"load": load.model_copy(update=only)}
+    )
+
+
+def dynamic_point(
+    scene: Bearing, pressure: float, resolution: int, frequency_ratio: float, started: dict[int, Instant]
+) -> DynamicPoint:
+    """The point of a bearing at its speed and load.
+
+    Parameters
+    ----------
+    started : a film near the equilibrium on each grid, by the coarsening of the grid; replaced by those of the point.
+    """
+    cpu = time.process_time()
+    solved = list(_equilibria(scene, resolution, started))
+    points = [grid_point(film, instant, frequency_ratio) for film, instant in reversed(solved)]
+    speed, (film, instant) = abs(scene.motion.speed), solved[-1]
+    rotation = rotation_of(scene, speed)
+    numbers, uncertainty = finished(points, rotation)
+    return DynamicPoint(
+        pressure=pressure,
+        load=math.hypot(*film.load[~film.wall.turns]),
+        speed=speed,
+        rotation=rotation,
+        numbers=numbers,
+        uncertainty=uncertainty,
+        residual=max(instant.residual, instant.force_residual),
+        cpu_s=time.process_time() - cpu,
+    )
+
+
+def _equilibria(scene: Bearing, resolution: int, started: dict[int, Instant]) -> Iterator[tuple[FreeFilm, Instant]]:
+    """The equilibrium on each grid, from coarse to fine; coarse ones may be missing.
+
+    A coarse grid may lack an equilibrium that the others have; two of them are taken to show that there is none.
+    """
+    coarse: tuple[FreeFilm, Instant] | None = None
+    refused = 0
+    for coarsening in COARSENING:
+        film = free_film(scene, (resolution // coarsening, resolution // coarsening // 2))
+        start = started.pop(coarsening, None)
+        if start is None and coarse is not None:
+            start = refined(*coarse, film)
+        try:
+            instant = equilibrium(film, start, tolerance=TOLERANCE)
+        except (InputError, ConvergenceError) as error:
+            refused += isinstance(error, InputError)
+            if coarsening == COARSENING[-1] or refused > 1:
+                raise
+            continue
+        started[coarsening] = instant
+        coarse = film, instant
+        yield film, instant
+
+
+def onset_of(points: Sequence[DynamicPoint], mass: float) -> Onset:
+    """The lowest speed at which the critical mass falls to that of a rotor, interpolated between points.
+
+    Between two points 1/M is linear over the speed.
+
+    Parameters
+    ----------
+    points : points in order of speed.
+    mass : mass of the rotor in the bearing, kg.
+    """
+    excess = [
+        1 / point.numbers["critical_mass"] - 1 / mass if point.numbers["critical_mass"] else math.inf
+        for point in points
+    ]
+    if excess[0] > 0:
+        return Onset(mass=mass, rotation=math.nan, uncertainty=math.inf)
+    for number in range(1, len(points)):
+        before, after = points[number - 1], points[number]
+        if excess[number] > 0:
+            low, high = before.rotation, after.rotation
+            part = excess[number - 1] / (excess[number - 1] - excess[number]) if math.isfinite(excess[number]) else 1.0
+            return Onset(mass=mass, rotation=low + part * (high - low), uncertainty=high - low)
+    return Onset(mass=mass, rotation=math.inf, uncertainty=math.inf)
+
+
+def _checked(
+    scene: Bearing,
+    speeds: Sequence[float],
+    pressures: Sequence[float],
+    resolution: int,
+    frequency_ratio: float,
+    mass: float | None,
+) -> list[float]:
+    """The speeds in increasing order; raises InputError for a bearing or a number out of range."""
+    if not isinstance(scene.geometry, Lobes):
+        raise InputError(
+            f"geometry.shape: got {scene.geometry.shape!r}; stiffness and damping are those of a shape whose walls "
+            "move freely, take 'lobes'"
+        )
+    if scene.asperities is not None or scene.roughness is not None:
+        place = "asperities" if scene.asperities is not None else "roughness"
+        raise InputError(f"{place}: got some; stiffness and damping are those of smooth walls, remove [{place}]")
+    for name, values in (("speeds", speeds), ("loads", pressures)):
+        wrong = [value for value in values if not 0 < value < math.inf]
+        if wrong or not values:
+            got = f"got {wrong[0]!r}" if wrong else "are missing"
+            raise InputError(f"{name}: {got}; give finite numbers above 0")
+        if len(set(values)) < len(values):
+            raise InputError(f"{name}: got the same number twice; give each once")
+    if not MIN_CELLS <= resolution <= MAX_CELLS:
+        raise InputError(f"resolution: got {resolution}; it must be {MIN_CELLS} to {MAX_CELLS} cells along the film")
+    low, high = FREQUENCY_RATIOS
+    if not low <= frequency_ratio <= high:
+        raise InputError(f"frequency_ratio: got {frequency_ratio!r}; it must be {low:g} to {high:g}")
+    if mass is not None and not 0 < mass < math.inf:
+        raise InputError(f"mass: got {mass!r} kg; it must be a finite number above 0")
+    return sorted(speeds)

@@ -1,0 +1,144 @@
+"""The stability of a rigid rotor in bearings with given stiffness and damping."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from scipy.optimize import brentq
+
+from roughfilm.contact.foundation.arrays import Array
+
+Matrices = tuple[Array, Array]
+"""Stiffness and damping of a shaft, each of shape (2, 2), N/m and N s/m."""
+
+RATIOS = np.geomspace(0.05, 3.0, 60)
+"""Whirl ratios between which whirl is sought if stiffness and damping depend on the frequency."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Whirl:
+    """The whirl at which a rigid rotor becomes unstable.
+
+    Attributes
+    ----------
+    inverse_mass : 1/M of the largest mass M in the bearing at which the rotor is stable, 1/kg; 0 or below if it is
+        stable at any mass, infinite if it is stable at none.
+    frequency_squared : square of the frequency of the whirl, rad²/s²; 0 or below without whirl.
+    """
+
+    inverse_mass: float
+    frequency_squared: float
+
+
+def rigid_whirl(stiffness: Array, damping: Array) -> Whirl:
+    """The whirl of a mass M in a bearing, from M z'' + B z' + K z = 0.
+
+    With z = Z exp(iνt) at the limit of stability, the determinant of K - Mν² + iνB is zero. Its imaginary and its real
+    part give
+
+        Mν² = k = (Kxx Byy + Kyy Bxx - Kxy Byx - Kyx Bxy)/(Bxx + Byy),
+        ν² = ((Kxx - k)(Kyy - k) - Kxy Kyx)/(Bxx Byy - Bxy Byx),    M = k/ν².
+
+    By the criterion of Routh and Hurwitz, the rotor is stable exactly below this M, at any M if ν² is not positive, and
+    at none if k, det K, det B or the trace of B is not positive.
+
+    Parameters
+    ----------
+    stiffness, damping : K, N/m, and B, N s/m, of the bearing that carries the mass, of shape (2, 2).
+
+    Source: Lund 1987, doi:10.1115/1.3261324.
+    """
+    if not _damped(stiffness, damping):
+        return Whirl(inverse_mass=math.inf, frequency_squared=math.nan)
+    k = _whirl_stiffness(stiffness, damping)
+    squared = _frequency_squared(stiffness, damping)
+    return Whirl(inverse_mass=squared / k, frequency_squared=squared)
+
+
+def whirl_of(at: Callable[[float], Matrices], speed: float) -> Whirl:
+    """The whirl of a rigid rotor in a bearing whose stiffness and damping depend on the frequency.
+
+    The conditions of :func:`rigid_whirl` hold with K and B at the frequency ν. Of several whirls that with the smallest
+    mass counts; whirl ratios ν/ω from 0.05 to 3 are searched.
+
+    Parameters
+    ----------
+    at : at(ν), K and B of shape (2, 2) at a frequency, rad/s.
+    speed : rotational speed ω of the rotor, rad/s, above 0.
+    """
+    slow = at(float(RATIOS[0]) * speed)
+    if not _damped(*slow):
+        return Whirl(inverse_mass=math.inf, frequency_squared=math.nan)
+
+    def excess(ratio: float) -> float:
+        return _frequency_squared(*at(ratio * speed)) / speed**2 - ratio**2
+
+    values = [excess(float(ratio)) for ratio in RATIOS]
+    found = []
+    for (low, below), (high, above) in pairwise(zip(map(float, RATIOS), values, strict=True)):
+        if below * above < 0:
+            frequency = float(brentq(excess, low, high, xtol=1e-14)) * speed
+            k = _whirl_stiffness(*at(frequency))
+            if k > 0:
+                found.append(Whirl(inverse_mass=frequency**2 / k, frequency_squared=frequency**2))
+    if found:
+        return max(found, key=lambda whirl: whirl.inverse_mass)
+    squared = min(_frequency_squared(*slow), 0.0)
+    return Whirl(inverse_mass=squared / _whirl_stiffness(*slow), frequency_squared=squared)
+
+
+def _damped(stiffness: Array, damping: Array) -> bool:
+    """Whether a small mass in the bearing is stable."""
+    return bool(
+        np.linalg.det(damping) > 0
+        and np.trace(damping) > 0
+        and np.linalg.det(stiffness) > 0
+        and _whirl_stiffness(stiffness, damping) > 0
+    )
+
+
+def _whirl_stiffness(stiffness: Array, damping: Array) -> float:
+    """The stiffness k = Mν² at the limit of stability, N/m."""
+    (kxx, kxy), (kyx, kyy) = stiffness
+    (bxx, bxy), (byx, byy) = damping
+    return float((kxx * byy + kyy * bxx - kxy * byx - kyx * bxy) / (bxx + byy))
+
+
+def _frequency_squared(stiffness: Array, damping: Array) -> float:
+    """The square ν² of the frequency at the limit of stability, rad²/s²."""
+    k = _whirl_stiffness(stiffness, damping)
+    (kxx, kxy), (kyx, kyy) = stiffness
+    return float(((kxx - k) * (kyy - k) - kxy * kyx) / np.linalg.det(damping))
+
+
+def condensed(stiffness: Array, damping: Array, kept: Array, frequency: float) -> Matrices:
+    """The stiffness and damping of some coordinates while the others, without inertia, follow their motion.
+
+    With Z = K + iωB of all coordinates, the forces on the kept ones j, while those on the others p are zero, are
+
+        Z_jj - Z_jp Z_pp⁻¹ Z_pj = K' + iωB'.
+
+    At ω = 0 it is the limit of slow motions.
+
+    Parameters
+    ----------
+    stiffness, damping : K and B of all coordinates.
+    kept : whether each coordinate is kept.
+    frequency : ω of the motion, rad/s.
+
+    Source: Lund 1964, ASLE Transactions 7, 342-352, for the pads of a bearing.
+    """
+    j, p = np.ix_(kept, kept), np.ix_(~kept, ~kept)
+    jp, pj = np.ix_(kept, ~kept), np.ix_(~kept, kept)
+    if kept.all():
+        return stiffness, damping
+    if frequency == 0:
+        after = np.linalg.solve(stiffness[p], stiffness[pj])
+        before = np.linalg.solve(stiffness[p].T, stiffness[jp].T).T
+        slow = damping[j] - damping[jp] @ after - before @ damping[pj] + before @ damping[p] @ after
+        return stiffness[j] - stiffness[jp] @ after, slow
+    z = stiffness + 1j * frequency * damping
+    reduced = z[j] - z[jp] @ np.linalg.solve(z[p], z[pj])
+    return np.asarray(reduced.real), np.asarray(reduced.imag / frequency)

@@ -1,0 +1,79 @@
+"""Films that become too thin on the way to an equilibrium, and why."""
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.pivoted import Tilting
+from roughfilm.rom.bearing.quantities import scene_positions
+from roughfilm.rom.bearing.totals.pads import unloaded
+from roughfilm.rom.cavitation.motion.contact import ContactLaw
+from roughfilm.rom.cavitation.motion.coupled import Instant
+
+CLOSEST = 1e-4
+"""Least film over the clearance below which no equilibrium is sought."""
+
+CLOSEST_CONTACT = 2e-3
+"""Distance from the smallest known separation of walls that touch, over that of first contact from it."""
+
+CLOSEST_PAD = 1e-2
+"""The same over the film of a pad that narrows to half."""
+
+END = 0.25
+"""Fraction of the length of a pad that counts as its inlet."""
+
+EVEN = 0.5
+"""Least over largest film from which on a film counts as even."""
+
+
+def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
+    """The reason why there is no equilibrium, if a film has become too thin; else None."""
+    contact = film.solved.contact
+    if contact is not None:
+        return _beyond_contact(film, instant, force, contact)
+    thickness, geometry, x = instant.faces.thickness, film.scene.geometry, film.solved.grid.x
+    least = float(thickness.min())
+    limit = CLOSEST_PAD if isinstance(geometry, Tilting) else CLOSEST
+    if least >= limit * film.wall.unit[0]:
+        return None
+    i = int(np.argmin(thickness.min(axis=1)))
+    if isinstance(geometry, Tilting):
+        along = float((x[i] - x[0]) / (x[-1] - x[0]))
+        middle = float(thickness[i, thickness.shape[1] // 2])
+        if least > EVEN * float(thickness.max()) or along < END:
+            place, remedy = "its inlet", "move the pivot towards the outlet; a flat pad needs one behind its middle"
+        elif least > EVEN * middle:
+            place, remedy = "its outlet", "move the pivot towards the middle, or take more cells"
+        else:
+            place, remedy = "a side", "move the pivot towards the middle of the width"
+        return InputError(
+            f"geometry.pivot: got {list(geometry.pivot)}; no tilt balances the moments, the film closes at {place}; "
+            f"{remedy}"
+        )
+    if isinstance(geometry, Lobes) and geometry.pivot is not None:
+        solution = film.solution(instant)
+        above = solution.grid.areas * (solution.state.pressure + film.scene.lubricant.cavitation_pressure)
+        pad = int(geometry.lobe(scene_positions(solution)[i])) + 1
+        if pad in unloaded(geometry, scene_positions(solution), above):
+            return InputError(
+                f"geometry: pad {pad} carries no load, and the suction of its film closes it; raise the preload, or "
+                "set lubricant.cavitation_pressure to 0 Pa, at which air enters"
+            )
+    return InputError(
+        f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; lower the load, or "
+        "raise the speed or the viscosity"
+    )
+
+
+def _beyond_contact(film: FreeFilm, instant: Instant, force: Array, contact: ContactLaw) -> InputError | None:
+    """The reason why there is no equilibrium if the walls come nearly as close as their contact is known for."""
+    if film.solved.room(instant.place) >= CLOSEST_CONTACT * (contact.touching - contact.closest):
+        return None
+    size, pressed = (np.hypot(*one[:2]) for one in (force, film.solved.contact_at(instant.place).force))
+    return InputError(
+        f"load: got {size:.6g} N; at a separation of {contact.closest:.4g} m, the smallest whose contact pressure is "
+        f"known, the asperities carry {pressed:.4g} N and the film too little; lower the load, or make a table with "
+        "larger loads"
+    )

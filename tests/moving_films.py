@@ -1,0 +1,114 @@
+"""Films whose walls move, from which several tests start: plates, lines and journals on small grids."""
+
+import numpy as np
+
+from roughfilm.rom.cavitation.discretise import Ends
+from roughfilm.rom.cavitation.grid import grid
+from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
+from roughfilm.rom.cavitation.motion.film import Inflow, MovingFilm
+from roughfilm.rom.cavitation.motion.march import Course
+from roughfilm.rom.cavitation.network import State
+from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.shape import Shape
+
+
+def flat(x, y):
+    """1 at all positions."""
+    return 1 + 0 * x + 0 * y
+
+
+def plates(nodes, *, length=1.0, viscosity=1.0, ambient=0.0, theta=None, inflows=(), thickness=None, **problem):
+    """A film on a line whose upper wall moves up and down; h = h₀(x) + q."""
+    shape = Shape(thickness=thickness or (lambda x, y: 0 * x + 0 * y), breaks=(0.0, length))
+    ends = Ends(inlet=ambient, outlet=ambient) if theta is None else Ends(theta=theta, outlet=ambient)
+    entries = {"speed": 0.0} | problem
+    return MovingFilm(
+        problem=Problem(shape=shape, ends=ends, viscosity=viscosity, **entries),
+        grid=grid(shape, (nodes, 1)),
+        normals=(flat,),
+        inflows=inflows,
+        ambient=ambient,
+    )
+
+
+RADIUS, CLEARANCE, SPEED, VISCOSITY = 0.05, 5e-5, 10.0, 0.02
+"""Those of all journals, in SI units."""
+
+
+def journal(cells, *, width=0.05, halved=False, groove=True, ruptures=True, speed=SPEED, wide=False):
+    """A journal with coordinates of its shaft in units of m, and a groove at ambient pressure at x = 0."""
+    length = 2 * np.pi * RADIUS
+    across = (0.0, width / 2 if halved else width)
+    shape = Shape(
+        thickness=lambda x, y: CLEARANCE + 0 * x + 0 * y,
+        breaks=(0.0, length),
+        across=across,
+        wide=wide,
+        joined=(True, False),
+    )
+    ends = Ends(sides=None if wide else (0.0, 0.0))
+    inflows = (Inflow(covers=lambda x, y: (np.abs(x) < 1e-9) & np.isfinite(y), pressure=0.0),) if groove else ()
+    return MovingFilm(
+        problem=Problem(shape=shape, ends=ends, speed=speed, viscosity=VISCOSITY),
+        grid=grid(shape, cells),
+        normals=(lambda x, y: np.cos(x / RADIUS) + 0 * y, lambda x, y: np.sin(x / RADIUS) + 0 * y),
+        inflows=inflows,
+        halved=halved,
+        ruptures=ruptures,
+    )
+
+
+def full(film, place, *, fill=1.0, pressure=0.0):
+    """A film at coordinates, from which an iteration starts; it is full unless ``fill`` is below 1."""
+    place = np.asarray(place, dtype=float)
+    faces = film.faces(place)
+    pressures = np.array([inflow.pressure for inflow in film.inflows])
+    net = film.network(faces, pressures, speed=film.problem.speed)
+    state = State(
+        pressure=np.where(net.fixed, net.pressure, pressure),
+        fill=np.where(net.fixed, 1.0, fill) * np.ones(net.shape),
+    )
+    return Instant(
+        place=place,
+        pressures=pressures,
+        state=state,
+        kind=kinds(net, state),
+        faces=faces,
+        network=net,
+        balance=np.zeros(net.shape),
+        residual=np.inf,
+        force_residual=np.inf,
+        iterations=0,
+    )
+
+
+def drive(film, *, force=None, storage=(0.0, 0.0), speed=None):
+    """What acts on a film: all coordinates are free if there is a force, else all are given."""
+    count = len(film.normals)
+    return Drive(
+        speed=film.problem.speed if speed is None else speed,
+        force=np.zeros(count) if force is None else np.asarray(force, dtype=float),
+        stiffness=np.zeros((count, count)),
+        free=np.full(count, force is not None),
+        storage=storage,
+    )
+
+
+def steady(film, place, *, tolerance=1e-10, storage=(0.0, 0.0)):
+    """The film at given coordinates."""
+    return settled(film, full(film, place), drive(film, storage=storage), tolerance=tolerance)
+
+
+def course(film, *, place=None, force=None, speed=None, mass=0.0, scale=1.0):
+    """The course of a film: coordinates that are given over time, or forces on free ones."""
+    count = len(film.normals)
+    held = film.problem.speed if speed is None else speed
+    return Course(
+        free=np.full(count, place is None),
+        place=place or (lambda _time: np.zeros(count)),
+        speed=held if callable(held) else lambda _time: held,
+        force=force or (lambda _time: np.zeros(count)),
+        mass=mass * np.eye(count),
+        stiffness=np.zeros((count, count)),
+        velocity_scale=np.full(count, scale),
+    )
