@@ -16,7 +16,8 @@ from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
 from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, converted, under_load
 from roughfilm.rom.bearing.film import Searched, smooth_films
-from roughfilm.rom.bearing.free.solve import closer, placed, solve_free
+from roughfilm.rom.bearing.free.evaluated import evaluated
+from roughfilm.rom.bearing.free.solve import solve_free
 from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.quantities import EXACT, FILM_OUTPUTS, Fields, Outputs
@@ -215,25 +216,11 @@ def _free(
         tolerance=min(request.tolerance, FILM_RESIDUAL),
         progress=progress,
     )
-    scenes, solutions = free.scenes, free.solutions
-    levels = tuple((solution, outputs.quantities(at, solution)) for at, solution in zip(scenes, solutions, strict=True))
-    of_factors: Mapping[str, float] = {}
-    if solutions[0].problem.shape.roughness is not None:
-        compared = min(1, len(levels) - 1)
-        at, (solution, quantities) = scenes[compared], levels[compared]
-        known = at if known_from is None else at.moved(at.geometry.at_film(known_from))
-        of_factors = outputs.factor_uncertainties(known, solution, quantities)
-        if scene.load is not None:
-            step = FILM_STEP * free.films[compared].solved.room(free.instants[compared].place)
-            one = free.films[compared]
-            moved = closer(one, free.instants[compared], -step, tolerance=FILM_RESIDUAL)
-            others = outputs.quantities(placed(one, moved), one.solution(moved))
-            values, near = ({name: one.value for name, one in of.items()} for of in (quantities, others))
-            of_factors = converted(of_factors, values, near, step)
+    found = evaluated(free, outputs, known_from=known_from)
     return _Found(
-        scene=scenes[0],
-        levels=levels,
-        of_factors=of_factors,
+        scene=free.scenes[0],
+        levels=found.levels,
+        of_factors=found.of_factors,
         solved=free.solved,
         balance=free.balance,
         films=len(free.solved),
