@@ -5,9 +5,13 @@ from dataclasses import dataclass
 
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, converted
+from roughfilm.rom.bearing.free.lay import lay_error
 from roughfilm.rom.bearing.free.solve import FreeSolution, closer, placed
 from roughfilm.rom.bearing.quantities import Outputs
 from roughfilm.rom.cavitation.solve import Solution
+
+ONE_SIDED = ("side_leakage_low", "side_leakage_high")
+"""Quantities that a cross flow changes with its sign."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,8 +37,12 @@ def evaluated(free: FreeSolution, outputs: Outputs, *, known_from: float | None 
     compared = min(1, len(levels) - 1)
     at, (solution, quantities) = scenes[compared], levels[compared]
     known = at if known_from is None else at.moved(at.geometry.at_film(known_from))
-    of_factors = outputs.factor_uncertainties(known, solution, quantities)
     one, instant = free.films[compared], free.instants[compared]
+    own = outputs.factor_uncertainties(known, solution, quantities)
+    even, odd = (lay_error(solution, even=one.solved.halved), lay_error(solution, even=False))
+    of_factors = {
+        name: value + (odd if name in ONE_SIDED else even) * abs(quantities[name].value) for name, value in own.items()
+    }
     if one.scene.load is not None:
         step = FILM_STEP * one.solved.room(instant.place)
         moved = closer(one, instant, -step, tolerance=FILM_RESIDUAL)

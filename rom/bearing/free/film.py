@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.free.lay import straight
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
 from roughfilm.rom.bearing.geometry.rigid import MovingWall, RigidWall
@@ -132,6 +133,8 @@ def free_film(
     """
     geometry = _started(scene, contact)
     problem = film(scene.moved(geometry.at(geometry.wall.place)))
+    if problem.shape.roughness is not None and scene.roughness is not None:
+        problem = straight(problem, scene.roughness.rms)
     even = _even(scene, geometry, problem.shape)
     across = "slope_y" in geometry.wall.names and (even or problem.shape.wide)
     wall = geometry.wall.first(2) if across else geometry.wall

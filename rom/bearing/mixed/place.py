@@ -12,6 +12,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.equilibrium.balance import ORIGIN_DISTANCE
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
+from roughfilm.rom.bearing.free.lay import lay_error
 from roughfilm.rom.bearing.free.solve import ACROSS, COARSE_CELLS, approach, placed, stiffness_of
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.contact_load import asperity_load
@@ -98,6 +99,7 @@ class PlaceSearch:
             film=-float(force @ whole @ moved) - by_contact,
             contact=by_contact,
             length=separation - min(0.0, self.asperities.closest - ORIGIN_DISTANCE * self.asperities.touching),
+            left_out=lay_error(film.solution(instant), even=film.solved.halved),
         )
 
     def lift_off(self, pressure: float, near: float) -> float:

@@ -32,12 +32,14 @@ Known = Sequence[tuple[float, float]]
 class Slopes:
     """The increase of the loads of film and asperities as the walls approach, N/m, and the length of the power law, m.
 
-    The load of the film changes by about itself over that length.
+    The load of the film changes by about itself over that length. ``left_out`` is the relative error of that load by a
+    cross flow of the roughness that is left out.
     """
 
     film: float
     contact: float
     length: float
+    left_out: float = 0.0
 
 
 class Search(Protocol):

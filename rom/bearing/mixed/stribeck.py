@@ -335,7 +335,7 @@ def uncertainties(point: StribeckPoint, other: StribeckPoint, search: Search, sl
     """
     asperities, here, contacts = search.asperities, np.array([point.separation]), search.scene.asperities
     film, contact = point.film_load, point.contact_load
-    relative_factors = asperities.factor_uncertainty(point.separation)
+    relative_factors = asperities.factor_uncertainty(point.separation) + slopes.left_out
     film_error, contact_error = (
         relative_factors * abs(film),
         float(asperities.pressure_uncertainty(here)[0]) * abs(contact),
