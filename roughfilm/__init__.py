@@ -20,10 +20,12 @@ if TYPE_CHECKING:
     from roughfilm.interface.cases import collect_study as collect_study
     from roughfilm.interface.cases import write_case as write_case
     from roughfilm.interface.cases import write_study as write_study
+    from roughfilm.interface.curves import dynamics as dynamics
     from roughfilm.interface.curves import effects as effects
     from roughfilm.interface.curves import leakage_curve as leakage_curve
     from roughfilm.interface.curves import stribeck as stribeck
     from roughfilm.interface.fitting import fit_description as fit_description
+    from roughfilm.interface.motion import march as march
     from roughfilm.interface.results import load_result as load_result
     from roughfilm.interface.results import save as save
     from roughfilm.interface.scenes import load_scene as load_scene
@@ -56,8 +58,9 @@ else:
         "contact.foundation.units": ("Quantity",),
         "contact.surfaces.surface": ("Surface",),
         "interface.cases": ("collect_study", "write_case", "write_study"),
-        "interface.curves": ("effects", "leakage_curve", "stribeck"),
+        "interface.curves": ("dynamics", "effects", "leakage_curve", "stribeck"),
         "interface.fitting": ("fit_description",),
+        "interface.motion": ("march",),
         "interface.results": ("load_result", "save"),
         "interface.scenes": ("load_scene", "read_scene", "replace"),
         "interface.solving": ("advise", "compare", "models", "solve"),

@@ -178,6 +178,11 @@ KINDS: dict[str, Callable[[Path], Path]] = {
         *changes(*WASHER),
         *("--resolution", 16, "--loads", "1MPa,2MPa", "--speeds", "20rpm,500rpm"),
     ),
+    "dynamics": written(
+        "dynamics",
+        SCENES / "grooved_journal.toml",
+        *("--resolution", 32, "--loads", "5kN,10kN", "--speeds", "1000rpm,3000rpm"),
+    ),
     "windows": written("windows", Path("rough.toml"), "--scene", "seal.toml", *FEW_WINDOWS),
     "leakage over windows": over_windows("leakage", Path("seal.toml"), "--loads", "10kPa,40kPa", cells=SEEDS),
     "factors over windows": over_windows("factors", "--tolerance", 0.2, cells=SEEDS),

@@ -1,10 +1,12 @@
 """Films whose walls move, from which several tests start: plates, lines and journals on small grids."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.grid import grid
-from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
+from roughfilm.rom.cavitation.motion.coupled import Drive, full_film, kinds, settled
 from roughfilm.rom.cavitation.motion.film import Inflow, MovingFilm
 from roughfilm.rom.cavitation.motion.march import Course
 from roughfilm.rom.cavitation.network import State
@@ -61,25 +63,13 @@ def journal(cells, *, width=0.05, halved=False, groove=True, ruptures=True, spee
 def full(film, place, *, fill=1.0, pressure=0.0):
     """A film at coordinates, from which an iteration starts; it is full unless ``fill`` is below 1."""
     place = np.asarray(place, dtype=float)
-    faces = film.faces(place)
-    pressures = np.array([inflow.pressure for inflow in film.inflows])
-    net = film.network(faces, pressures, speed=film.problem.speed)
+    first = full_film(film, place)
+    fixed = first.network.fixed
     state = State(
-        pressure=np.where(net.fixed, net.pressure, pressure),
-        fill=np.where(net.fixed, 1.0, fill) * np.ones(net.shape),
+        pressure=np.where(fixed, first.network.pressure, pressure),
+        fill=np.where(fixed, 1.0, fill) * np.ones(fixed.shape),
     )
-    return Instant(
-        place=place,
-        pressures=pressures,
-        state=state,
-        kind=kinds(net, state),
-        faces=faces,
-        network=net,
-        balance=np.zeros(net.shape),
-        residual=np.inf,
-        force_residual=np.inf,
-        iterations=0,
-    )
+    return replace(first, state=state, kind=kinds(first.network, state))
 
 
 def drive(film, *, force=None, storage=(0.0, 0.0), speed=None):

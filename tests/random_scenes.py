@@ -257,10 +257,11 @@ def bearings(draw):
     shape = draw(st.sampled_from(list(_SHAPES)))
     geometry = {"shape": shape, **_SHAPES[shape](draw, length, film, rise)}
     wide = shape not in ("sector", "washer") and draw(st.booleans()) and shape != "given"
+    wide &= shape != "lobes" or "arc" in geometry
     ring = shape in ("sector", "washer")
     if not wide and not ring:
         geometry["width"] = f"{length * draw(number(0.1, 10))!r} m"
-    if not ring and draw(st.integers(0, 3)) == 0:
+    if not ring and shape != "lobes" and draw(st.integers(0, 3)) == 0:
         geometry["texture"] = _texture(draw, length, film, None if wide else float(geometry["width"].split()[0]))
     speed = draw(st.just(0.0) | number(1e-3, 30) | number(1e-3, 30).map(lambda value: -value))
     entries = {
@@ -270,7 +271,9 @@ def bearings(draw):
         "lubricant": _lubricant(draw),
         "motion": {"speed": f"{speed!r} m/s"},
     }
-    if not (shape == "washer" or geometry.get("joined")):
+    if shape == "lobes":
+        _shaft(draw, entries, speed, wide)
+    elif not (shape == "washer" or geometry.get("joined")):
         entries["boundary"] = draw(_boundary(wide))
     elif entries["lubricant"].get("cavitation_pressure") == "0.0 Pa":
         entries["boundary"] = {"sides": {"low": "1e5 Pa", "high": "1e5 Pa"}}
@@ -298,6 +301,45 @@ def _metres(**lengths):
 def _journal(draw, length, film, _rise):
     eccentricity = draw(part(0.0, 0.95))
     return {**_metres(radius=length / 6, clearance=film / (1 - eccentricity)), "eccentricity": eccentricity}
+
+
+def _lobes(draw, length, film, _rise):
+    count = draw(st.integers(1, 5))
+    whole = draw(st.booleans())
+    geometry = _metres(radius=length / 6, clearance=film) | {"lobes": count, "preload": draw(part(0.0, 0.7))}
+    geometry |= {"first": f"{draw(part(-180, 180))!r} deg", "offset": draw(part(0.0, 1.0))}
+    if not whole:
+        geometry["arc"] = f"{360 / count * draw(part(0.3, 0.95))!r} deg"
+        if draw(st.booleans()):
+            geometry["pivot"] = draw(part(0.35, 0.65))
+    return geometry
+
+
+def _shaft(draw, entries, speed, wide):
+    """Put a shaft in lobes at a place, or under a load from small to hardly carried; feed it."""
+    geometry, oil = entries["geometry"], entries["lubricant"]
+    if speed and draw(st.booleans()):
+        radius, clearance = (float(geometry[key].split()[0]) for key in ("radius", "clearance"))
+        scale = float(oil["viscosity"].split()[0]) * abs(speed) * radius / clearance**2
+        entries["load"] = {
+            "angle": f"{draw(part(-180, 180))!r} deg",
+            "pressure": f"{scale * draw(number(0.01, 3))!r} Pa",
+        }
+    else:
+        room, turned = 1 - geometry["preload"], draw(part(0.0, 6.283))
+        size = room * draw(part(0.0, 0.95))
+        geometry["eccentricity"] = [float(size * np.cos(turned)), float(size * np.sin(turned))]
+    if not wide and draw(st.integers(0, 3)) == 0:
+        slope = 0.3 * float(geometry["clearance"].split()[0]) / float(geometry["width"].split()[0])
+        geometry["misalignment"] = [f"{slope * draw(part(-1.0, 1.0))!r} rad" for _ in range(2)]
+    if "arc" in geometry and geometry["lobes"] > 1:
+        boundary = draw(_boundary(wide))
+        if boundary["inlet"].get("theta", 1.0) >= 1:
+            entries["boundary"] = {key: one for key, one in boundary.items() if key != "outlet"}
+    elif "arc" in geometry:
+        entries["boundary"] = draw(_boundary(wide))
+    elif oil["cavitation_pressure"] == "0.0 Pa":
+        entries["boundary"] = {"sides": {"low": "1e5 Pa", "high": "1e5 Pa"}}
 
 
 def _sector(draw, length, film, rise):
@@ -345,6 +387,7 @@ _SHAPES = {
     "squared_cosine_inlet": _wavy,
     "given": _given,
     "journal": _journal,
+    "lobes": _lobes,
     "sector": _sector,
     "washer": _washer,
 }

@@ -49,6 +49,7 @@ _ENGINEERING: Mapping[str, tuple[float, float]] = {
     "m^3/s": (1e-20, 1e3),
     "kg/m^3": (1e-3, 1e5),
     "kg": (1e-9, 1e6),
+    "kg*m": (1e-12, 1e6),
     "m/s": (1e-9, 1e5),
     "rad": (1e-8, 1e2),
     "rad/s": (1e-6, 1e6),

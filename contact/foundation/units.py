@@ -99,6 +99,7 @@ _MEANINGS: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "m^3/s": ("a flow", ("l/min", "ml/min", "m^3/s")),
     "s": ("a time", ("s", "min", "h")),
     "kg": ("a mass", ("kg", "g")),
+    "kg*m": ("an unbalance", ("g*mm", "kg*m")),
     "K": ("a temperature", ("degC", "K")),
     "m^2": ("an area", ("mm^2", "m^2")),
     "W": ("a power", ("W", "kW")),

@@ -17,7 +17,7 @@ from roughfilm.rom.advice.estimates import (
 )
 from roughfilm.rom.advice.laws import Numbers, Table, lawful, table
 from roughfilm.rom.advice.stated import StatedError, percent
-from roughfilm.rom.ladder.kind import Omission, Scene, kind_of_scene
+from roughfilm.rom.ladder.kind import InTime, Omission, Scene, kind_of_scene
 from roughfilm.rom.ladder.model import Model, Progress, best_for, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -111,6 +111,7 @@ class Advice:
     spent_cpu_s : CPU time of all runs, s.
     omitted : by model, the effect that it leaves out and that the laws do not count, whose part is subtracted from the
         tolerance.
+    in_time : what a load over time means; None for a steady scene.
     """
 
     quantity: str
@@ -125,6 +126,7 @@ class Advice:
     result: Result | None
     spent_cpu_s: float
     omitted: Mapping[str, Omission] = field(default_factory=dict)
+    in_time: InTime | None = None
 
     def __repr__(self) -> str:
         taken = self.chosen
@@ -138,7 +140,7 @@ def wanted(scene: Scene, name: str | None) -> str:
 
     Raises InputError for a name that no quantity of the kind has.
     """
-    kind = kind_of_scene(scene)
+    kind = kind_of_scene(kind_of_scene(scene).steady(scene))
     if name is None:
         return next(iter(kind.compared))
     for quantity, title in kind.titles.items():
@@ -182,7 +184,8 @@ def advise(
     that model is cheap and the checks of all cheaper pairs cost little (:func:`affordable`). Neither depends on the
     tolerance, so that a looser tolerance never chooses a more expensive pair. A pair is not run if the laws expect more
     than ``MAX_ERROR_RATIO`` tolerances. An effect that a model leaves out and that the laws do not count is subtracted
-    from its tolerance. An error is a bound that 95 of 100 scenes do not exceed.
+    from its tolerance. An error is a bound that 95 of 100 scenes do not exceed. A scene whose load changes in time is
+    judged at its largest load.
 
     Parameters
     ----------
@@ -202,6 +205,8 @@ def advise(
     """
     if not 0 < within < 1:
         raise InputError(f"within: got {within!r}; it must be above 0 and below 1, for example 5%")
+    given = kind_of_scene(scene)
+    moving, scene = given.in_time(scene, within), given.steady(scene)
     kind = kind_of_scene(scene)
     known: dict[tuple[str, int], Result] = {}
     failed: dict[tuple[str, int], Exception] = {}
@@ -266,6 +271,7 @@ def advise(
         result=known.get((taken.model, taken.resolution or 0)) if taken else None,
         spent_cpu_s=sum(result.numerics.cpu_s for result in known.values()),
         omitted=task.omitted,
+        in_time=moving,
     )
 
 

@@ -2,7 +2,9 @@
 
 from dataclasses import dataclass
 
-from roughfilm.rom.cavitation.balance import FLOODED
+import numpy as np
+
+from roughfilm.rom.cavitation.balance import CAVITY, FIXED, FLOODED
 from roughfilm.rom.cavitation.solve import Solution
 
 PRESSURE_TOLERANCE = 1e-9
@@ -11,7 +13,10 @@ PRESSURE_TOLERANCE = 1e-9
 
 @dataclass(frozen=True, kw_only=True)
 class Jump:
-    """A jump of the pressure between the ``end`` "inlet" or "outlet" and the ``side`` "low" or "high", Pa."""
+    """A jump of the pressure between an end of the film and the ``side`` "low" or "high", Pa.
+
+    The ``end`` is "inlet" or "outlet", each of which is also a gap between lobes, at the begin and the end of a lobe.
+    """
 
     end: str
     side: str
@@ -26,7 +31,11 @@ def jumps(solution: Solution) -> tuple[Jump, ...]:
     cavity begins at the inlet, the flow from the side into it is finite.
     """
     ends, last = solution.problem.ends, solution.grid.y.size - 1
-    if ends.sides is None or solution.network.periodic[0]:
+    if ends.sides is None:
+        return ()
+    if solution.problem.shape.idle:
+        return _at_gaps(solution, ends.sides)
+    if solution.network.periodic[0]:
         return ()
     found = []
     for side, pressure, row in (("low", ends.sides[0], 1), ("high", ends.sides[1], last - 1)):
@@ -34,6 +43,21 @@ def jumps(solution: Solution) -> tuple[Jump, ...]:
         for end, other in ((("inlet", ends.inlet or 0.0),) if flooded else ()) + (("outlet", ends.outlet),):
             if abs(pressure - other) > PRESSURE_TOLERANCE * max(abs(pressure), abs(other)):
                 found.append(Jump(end=end, side=side, difference=other - pressure))
+    return tuple(found)
+
+
+def _at_gaps(solution: Solution, sides: tuple[float, float]) -> tuple[Jump, ...]:
+    """The jumps at the gaps between lobes, at whose end a lobe begins; the film may rupture before a gap begins."""
+    gap = (solution.kind[:, 1:-1] == FIXED).all(axis=1)
+    begins, ends = np.flatnonzero(gap & ~np.roll(gap, 1)), np.flatnonzero(gap & ~np.roll(gap, -1))
+    found = []
+    for side, pressure, row in (("low", sides[0], 1), ("high", sides[1], -2)):
+        full = solution.kind[begins - 1, row] != CAVITY
+        for end, nodes in (("inlet", ends), ("outlet", begins[full])):
+            differences = solution.state.pressure[nodes, row] - pressure
+            largest = max(abs(pressure), *np.abs(solution.state.pressure[nodes, row]), 0.0)
+            if nodes.size and np.abs(differences).max() > PRESSURE_TOLERANCE * largest:
+                found.append(Jump(end=end, side=side, difference=float(differences[np.abs(differences).argmax()])))
     return tuple(found)
 
 

@@ -16,12 +16,13 @@ from roughfilm.contact.foundation.units import Quantity, to_si
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.geometry.shapes import SHAPES
+from roughfilm.rom.bearing.moving.over_time import UNITS as COLUMNS_OVER_TIME
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES, RoughSurface
 from roughfilm.rom.bearing.scene import Bearing, BearingMotion
 from roughfilm.rom.bearing.supply.tables import SUPPLIES
 from roughfilm.rom.bearing.totals.reported import REPORTED
-from roughfilm.rom.ladder.kind import Kind, Omission
+from roughfilm.rom.ladder.kind import InTime, Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.lubricants.laws import LAWS
 
@@ -217,6 +218,24 @@ def missing(scene: Bearing, model: Any) -> float:
     return missing(scene, model)
 
 
+def steady(scene: Bearing) -> Bearing:
+    """The scene at the time of its largest load, if the load changes in time; else the scene."""
+    if scene.motion.over_time is None:
+        return scene
+    from roughfilm.rom.bearing.march.quasi_static import steady  # slow to import
+
+    return steady(scene)
+
+
+def in_time(scene: Bearing, within: float) -> InTime | None:
+    """What a load over time means for a scene; None for a scene without one."""
+    if scene.motion.over_time is None:
+        return None
+    from roughfilm.rom.bearing.march.quasi_static import in_time  # slow to import
+
+    return in_time(scene, within)
+
+
 def window(scene: Bearing) -> Surface | None:
     """The rough surface of one of the walls; None if the roughness is another one."""
     return scene.roughness.read() if isinstance(scene.roughness, RoughSurface) else None
@@ -262,11 +281,20 @@ KIND = Kind(
     symbols=NUMBERS,
     excluded="inertia, heat and deformation of the bodies as a whole",
     composed=composed,
+    steady=steady,
+    in_time=in_time,
     lawless=squeezed,
     omitted=omitted,
     missing=missing,
-    files=frozenset({"table", "surface", "thickness"}),
-    lists=frozenset({("roughness", "spacing"), ("roughness", "surface", "size"), ("roughness", "surface", "points")}),
+    files=frozenset({"table", "surface", "thickness", "file"}),
+    lists=frozenset(
+        {
+            ("roughness", "spacing"),
+            ("roughness", "surface", "size"),
+            ("roughness", "surface", "points"),
+            *(("motion", "over_time", name) for name in COLUMNS_OVER_TIME),
+        }
+    ),
     faults=validation_faults,
     replaces={
         "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
@@ -285,6 +313,7 @@ KIND = Kind(
         "roughness.surface": ("digest", "spacing"),
         "roughness.table": ("digest",),
         "geometry.thickness": ("digest",),
+        "motion.over_time.file": ("digest",),
         "load.pressure": ("force", "force_per_width"),
         "load.force": ("pressure", "force_per_width"),
         "load.force_per_width": ("pressure", "force"),

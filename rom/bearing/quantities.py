@@ -71,6 +71,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     load, resistance = load_of(scene, scene_positions(solution), force), float(rows.sum() + drag.between.sum())
     if abs(resistance) <= ROUND_OFF * float(np.abs(force).sum()):
         resistance = 0.0
+        rows = np.zeros_like(rows) if problem.speed == 0 else rows
     row = int(np.argmax(np.where(solution.kind == FILM, solution.state.pressure, -1.0).max(axis=0)))
     start, end = film_ends(solution, row)
     flows = boundary_flows(solution)
@@ -221,9 +222,13 @@ def boundary_flows(solution: Solution) -> Flows:
 def stored_flow(solution: Solution) -> Array:
     """The flow θ ∂h/∂t that the control volume of each node takes up, m³/s, shape (nx, ny).
 
-    A node on an open side has the filling of the node next to it, as no liquid enters a cavity through the side.
+    A node on an open edge has the filling of the node next to it, as no liquid enters a cavity through the edge, but
+    one at an inlet through which sliding carries liquid.
     """
     net, fill = solution.network, solution.state.fill
+    if not net.periodic[0]:
+        first = fill[1:2] if solution.problem.speed == 0 else fill[:1]
+        fill = np.concatenate([first, fill[1:-1], fill[-2:-1]])
     if solution.problem.ends.sides is not None:
         fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
     filled = fill + solution.problem.compression(solution.state.pressure)[0]
@@ -248,10 +253,15 @@ def film_ends(solution: Solution, row: int) -> tuple[float, float]:
 
 
 def _begins(solution: Solution, row: int, first: int, x: Array) -> float:
-    """The position where a film begins, m: the filled fraction of the cavity node before it places it in the cell."""
+    """The position where a film begins, m: the filled fraction of the cavity node before it places it in the cell.
+
+    At rest the film covers this fraction of the control volume of the node.
+    """
     if first == 0 or solution.kind[first - 1, row] != CAVITY:
         return float(x[max(first - 1, 0)])
     net, fill = solution.network, solution.state.fill[:, row]
+    if solution.problem.speed == 0:
+        return float(x[first] - (x[first] - x[first - 1]) * (0.5 + fill[first - 1]))
     if first > 1:
         inflow = net.couette[first - 2, row] * fill[first - 2]
     else:
@@ -262,9 +272,11 @@ def _begins(solution: Solution, row: int, first: int, x: Array) -> float:
 
 
 def _ends(solution: Solution, row: int, last: int, x: Array) -> float:
-    """The position where a film ends, m: θ extrapolated to 1 from the two nodes behind it."""
+    """The position where a film ends, m: θ extrapolated to 1 from the two nodes behind it, at rest as it begins."""
     if last + 2 >= x.size:
         return float(x[min(last + 1, x.size - 1)])
+    if solution.problem.speed == 0:
+        return float(x[last + 1] + (x[last + 1] - x[last]) * (solution.state.fill[last + 1, row] - 0.5))
     theta = filled_fraction(solution)[:, row]
     fall = theta[last + 1] - theta[last + 2]
     if fall <= 0:

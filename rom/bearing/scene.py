@@ -16,6 +16,9 @@ from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import SHAPES, AnyShape
+from roughfilm.rom.bearing.moving.body import Body
+from roughfilm.rom.bearing.moving.checks import check_motion
+from roughfilm.rom.bearing.moving.over_time import OverTime
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
 from roughfilm.rom.bearing.supply.patches import Patch, patches, supplied
 from roughfilm.rom.bearing.supply.tables import MAX_SUPPLIES, AnySupply
@@ -71,21 +74,25 @@ class BearingLubricant(Fluid):
 class BearingMotion(Part):
     """The speed of the flat wall, m/s, on a ring at the mean radius; negative if the wall slides towards the inlet.
 
-    In the file of a journal, a sector or a washer it may be a rotational speed, such as "3000 rpm".
+    In the file of a shaft, a sector or a washer it may be a rotational speed, such as "3000 rpm".
 
     Attributes
     ----------
-    speed : sliding speed, m/s; of a journal, a sector or a washer also a rotational speed, "3000 rpm".
+    speed : sliding speed, m/s; of a shaft, a sector or a washer also a rotational speed, "3000 rpm".
     approach : velocity V at which the walls approach each other, ∂h/∂t = -V, m/s, negative if they part; of a journal
         that of the shaft towards its narrowest place, ∂h/∂t = V cos φ with the angle φ from the widest place.
+    over_time : speed, load or path over time, for a march; steady films have the speed and the load of the scene.
     """
 
     speed: Speed
     approach: Speed = 0.0
+    over_time: OverTime | None = None
 
 
 class Inlet(Part):
     """The pressure above ambient, Pa, or the density ratio θ at the inlet; ambient pressure by default.
+
+    The inlet of a shaft in several lobes is the gaps between them.
 
     θ < 1 is starved, θ = 1 flooded at cavitation pressure, and θ > 1 pressurised by the law of compressibility. The ram
     pressure ``ram_factor`` ρ u²/2 of the liquid that meets the bearing at the sliding speed u adds to the pressure.
@@ -182,6 +189,10 @@ class Bearing(Scene):
 
     Fields of the results, of the shape of the grid: ``x``, ``y`` (m, or rad and m), ``film_thickness`` (m),
     ``pressure`` (Pa), ``density_ratio`` θ (1), which below 1 is the fraction of the gap filled with liquid.
+
+    Attributes
+    ----------
+    supply : grooves, holes and pockets inside of the film in which lubricant is supplied.
     """
 
     kind: Literal["bearing"]
@@ -192,6 +203,7 @@ class Bearing(Scene):
     roughness: AnyRoughness | None = None
     asperities: AsperityContact | None = None
     load: BearingLoad | None = None
+    body: Body | None = None
     supply: Annotated[tuple[AnySupply, ...], Field(max_length=MAX_SUPPLIES)] = ()
 
     @field_validator("geometry", mode="before")
@@ -207,13 +219,21 @@ class Bearing(Scene):
     @classmethod
     def _slides(cls, entries: Any, info: ValidationInfo) -> Any:
         """The motion, with the sliding speed at the radius of the geometry in place of a rotational speed."""
-        turning = rotational_speed(entries.get("speed")) if isinstance(entries, dict) else None
         geometry = info.data.get("geometry")
-        if turning is None or not isinstance(geometry, Shaft | Ring | None):
+        if not isinstance(entries, dict) or not isinstance(geometry, Shaft | Ring | None):
             return entries
         # Without a geometry, which has a fault then, any speed will do.
-        sliding = turning if geometry is None else turning * geometry.radius
-        return {**entries, "speed": with_unit(sliding, "m/s")}
+        radius = 1.0 if geometry is None else geometry.radius
+
+        def sliding(speed: Any) -> Any:
+            turning = rotational_speed(speed)
+            return speed if turning is None else with_unit(turning * radius, "m/s")
+
+        entries = {**entries, "speed": sliding(entries["speed"])} if "speed" in entries else entries
+        table = entries.get("over_time")
+        if not isinstance(table, dict) or not isinstance(table.get("speed"), list | tuple):
+            return entries
+        return {**entries, "over_time": {**table, "speed": [sliding(speed) for speed in table["speed"]]}}
 
     @model_validator(mode="after")
     def _can_be_solved(self) -> Self:
@@ -244,6 +264,8 @@ class Bearing(Scene):
             self._can_be_joined("joined pads")
         elif isinstance(self.geometry, Lobes) and self.geometry.joined:
             self._can_be_joined("lobes without gaps")
+        elif isinstance(self.geometry, Lobes) and not self.geometry.single:
+            self._can_have_gaps()
         if self.wide and self.boundary.sides != Sides():
             raise ValueError("boundary.sides: got pressures for an infinitely wide bearing; remove them or add a width")
         law, least = self.lubricant.piezoviscosity, math.exp(-LOG_VISCOSITY)
@@ -260,9 +282,12 @@ class Bearing(Scene):
                 f"motion.approach: got {self.motion.approach!r} m/s for a {moves}, which moves in several directions; "
                 "leave it out, and take roughfilm march for its motion"
             )
-        film = self.geometry.film
+        film, over_time = self.geometry.film, self.motion.over_time
+        check_motion(self.geometry, over_time, self.body, loaded=self.load is not None)
         if self.load is not None:
             self._can_be_loaded(self.load)
+        elif film is None and over_time is not None and over_time.places_or_loads:
+            pass  # a march has its load or its path over time
         elif film is None:
             key = "eccentricity" if isinstance(self.geometry, Shaft) else "film"
             raise ValueError(f"geometry.{key}: is missing; give it, or a load ([load] force or pressure)")
@@ -290,7 +315,9 @@ class Bearing(Scene):
             )
         if load.moment_x or load.moment_y:
             self._can_have_moments(load)
-        if self.motion.speed == 0 and self.motion.approach <= 0 and self.asperities is None and not self.supply:
+        in_time = self.motion.over_time is not None or self.body is not None
+        carried = self.asperities is not None or self.supply or in_time
+        if self.motion.speed == 0 and self.motion.approach <= 0 and not carried:
             parts = " between walls that part" if self.motion.approach else ""
             raise ValueError(
                 f"motion.speed: got 0 m/s under a load; a film without sliding{parts} carries none by its thickness, "
@@ -337,12 +364,29 @@ class Bearing(Scene):
 
     def _can_be_joined(self, pieces: str) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
+        if self.wide and not self.supply:
+            raise ValueError(
+                f"geometry.width: is missing, but {pieces} are fed through their sides; give a width, or an arc that "
+                "leaves gaps"
+            )
         if boundary.inlet != Inlet() or boundary.outlet != Outlet():
             raise ValueError(f"boundary: got an inlet or outlet, but {pieces} have none; leave it out")
         if max(boundary.sides.low, boundary.sides.high) <= lowest and not self.supply:
             raise ValueError(
                 f"boundary.sides: got no pressure above the cavitation pressure of {lowest!r} Pa; {pieces} are "
                 "fed through their sides, raise one of the two, or give [[supply]]"
+            )
+
+    def _can_have_gaps(self) -> None:
+        theta = self.boundary.inlet.theta
+        if theta is not None and theta < 1:
+            raise ValueError(
+                f"boundary.inlet.theta: got {theta!r} for the gaps between lobes, which are full; give at least 1, "
+                "or a pressure"
+            )
+        if self.boundary.outlet != Outlet():
+            raise ValueError(
+                "boundary.outlet: got one, but the gaps between lobes have the pressure of boundary.inlet; leave it out"
             )
 
     @property

@@ -94,10 +94,11 @@ def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:
             f"boundary.sides: one line leaves out the pressure of {fed:.3g} Pa at a side, while the largest one in the "
             f"film is {highest:.3g} Pa; take reynolds_cavitating"
         )
+    remedy = ", or [[supply]] with grooves that end before the sides" if isinstance(scene.geometry, Lobes) else ""
     warnings += [
         f"the pressure at the {jump.end} is {jump.difference:.3g} Pa above that at the {jump.side} side: the flows "
         f"through both edges are infinite; {jump.end}_flow, side_leakage_{jump.side} and side_leakage grow with the "
-        "logarithm of the cells; give both edges the same pressure"
+        f"logarithm of the cells; give both edges the same pressure{remedy}"
         for jump in jumps(solution)
     ]
     return warnings

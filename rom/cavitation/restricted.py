@@ -28,6 +28,9 @@ INNER_ITERATIONS = 200
 INNER_TOLERANCE = 1e-13
 """Relative change of a pressure at which these steps stop."""
 
+ROUND_OFF = 64 * float(np.finfo(float).eps)
+"""Round-off of a flow over those that its pressures drive, where a film is so thin that both pressures are equal."""
+
 RESPONSE_ACCURACY = 1e-3
 """Residual of a response to a pressure behind a restrictor, over the norm of its source."""
 
@@ -86,9 +89,11 @@ def fed(
     steps = found.iterations
     for iteration in range(ITERATIONS if free else 0):
         flows, slopes, largest, rest = _flows(network, fluid, found, [covered[number] for number in free], step)
-        passed = _passed(inflows, free, pressures[free])[0]
+        passed, steepness = _passed(inflows, free, pressures[free])
         before, wrong = wrong, float(np.abs(flows - passed).max()) / largest
-        if wrong <= tolerance or (wrong > FALL * before and wrong <= rest / largest):
+        drops = np.maximum([abs(inflows[number].pressure) for number in free], np.abs(pressures[free]))
+        rounded = (np.abs(flows - passed) <= ROUND_OFF * (steepness + np.abs(slopes).sum(axis=1)) * drops).all()
+        if wrong <= tolerance or rounded or (wrong > FALL * before and wrong <= rest / largest):
             return replace(found, residual=max(found.residual, wrong), iterations=steps)
         if iteration == ITERATIONS - 1:
             break

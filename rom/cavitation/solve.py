@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.discretise import Ends, Faces, faces, network
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.interpolation import carried
@@ -202,26 +203,31 @@ def _kept(solution: Solution | None, count: int) -> Solution | None:
 
 
 def _check_fill(solution: Solution) -> None:
-    """Raise ConvergenceError if an oblique lay drains more from a cavity node than flows in, or none can close.
+    """Raise ConvergenceError for a cavity that cannot exist: with negative filling, or one that closes at rest.
 
-    A cavity whose walls approach each other so fast that it displaces more than it carries on cannot be at rest. Nodes
-    become one where the density of a liquid that is compressed would have to grow in time.
+    An oblique lay may drain more from a cavity node than flows in. A cavity node whose walls approach each other, and
+    which displaces more than sliding carries on, would have to fill; the solver finds such nodes where a compressed
+    liquid has no density that does not change in time.
     """
-    least = float(solution.state.fill.min())
-    if least < -NEGATIVE_FILL_TOLERANCE:
-        closing = solution.network.oblique is None
+    net, least = solution.network, float(solution.state.fill.min())
+    closing = (solution.kind == CAVITY) & (net.storage < 0) & (net.storage + net.couette <= 0)
+    if closing.any():
         cause = (
-            "because the walls approach each other faster than a liquid of this compressibility can flow out while its "
+            "no film was found that closes so fast: its liquid would be compressed faster than it flows out while its "
             "density does not change in time; lower motion.approach, or take the model reynolds_incompressible"
-            if closing
-            else "because the pressures beside a cavity drive more liquid along the lay than flows in; take more "
-            "cells, or the model direct"
         )
-        raise ConvergenceError(
-            f"cavitation: a filling fraction is {least:.3g}, {cause}",
-            outcome=Outcome.STALLED,
-            iterations=sum(level.iterations for level in solution.levels),
+    elif least < -NEGATIVE_FILL_TOLERANCE:
+        cause = (
+            f"a filling fraction is {least:.3g}, because the pressures beside a cavity drive more liquid along the lay "
+            "than flows in; take more cells, or the model direct"
         )
+    else:
+        return
+    raise ConvergenceError(
+        f"cavitation: {cause}",
+        outcome=Outcome.STALLED,
+        iterations=sum(level.iterations for level in solution.levels),
+    )
 
 
 def on_grid(

@@ -104,6 +104,30 @@ class Omission:
 
 
 @dataclass(frozen=True, kw_only=True)
+class InTime:
+    """What a load that changes in time means for a scene.
+
+    Attributes
+    ----------
+    lines : sentences on the change in time.
+    entries : the same as entries for JSON.
+    """
+
+    lines: tuple[str, ...]
+    entries: Mapping[str, Any]
+
+
+def as_given(scene: Any) -> Any:
+    """Return the scene, for kinds whose scenes do not change in time."""
+    return scene
+
+
+def unchanging(_scene: Any, _within: float) -> None:
+    """Return nothing, for kinds whose scenes do not change in time."""
+    return
+
+
+@dataclass(frozen=True, kw_only=True)
 class Kind:
     """A kind of scene as data; every module ``rom/<kind>/kind.py`` defines one as ``KIND``.
 
@@ -137,6 +161,8 @@ class Kind:
     window : window(scene), the rough surface that stands for a larger one; None if a scene has none.
     composed : composed(scene), a line on the model of each effect of a scene, with its reason.
     excluded : the effects that no model of the kind includes, in words.
+    steady : steady(scene), the scene at the time of its largest load, by which models are judged.
+    in_time : in_time(scene, within), what a load over time means for a tolerance; None for a scene that is steady.
     omitted : omitted(scene, model, quantity), the size of an effect that a model leaves out and that the error laws do
         not count, such as one that no model of the kind includes; None if it is zero or unknown.
     missing : missing(scene, model), the relative size of the effects that a model leaves out in a scene, where no model
@@ -167,6 +193,8 @@ class Kind:
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
+    steady: Callable[[Any], Any] = as_given
+    in_time: Callable[[Any, float], InTime | None] = unchanging
     omitted: Callable[[Any, Any, str], Omission | None] = nothing_omitted
     missing: Callable[[Any, Any], float] = nothing_missing
     outside_laws: Callable[[Any, Any, str], str] = within_laws

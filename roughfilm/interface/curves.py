@@ -1,4 +1,4 @@
-"""Stribeck curves of a bearing, leakage of a seal over the load, and the effects in a bearing one by one."""
+"""Curves of a bearing and of a seal, over speed and load, and the effects in a bearing one by one."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -9,11 +9,12 @@ from pathlib import Path
 from roughfilm import ladder
 from roughfilm.contact.foundation.arrays import finite_arithmetic
 from roughfilm.contact.foundation.errors import InputError, unwritable
-from roughfilm.contact.foundation.ranges import in_range
+from roughfilm.contact.foundation.ranges import in_range, whole_in_range
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.interface.cells import CheckedWindows, Windows, checked_windows, scenes_with
 from roughfilm.interface.rows import Rows
+from roughfilm.rom.bearing.dynamics import sweep
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis, analyse_effects
 from roughfilm.rom.bearing.mixed import stribeck as mixed
 from roughfilm.rom.bearing.scene import Bearing
@@ -118,6 +119,83 @@ def stribeck(
         return curves
     with finite_arithmetic("stribeck"):
         return mixed.stribeck(scene, wanted, given, resolution=resolution, progress=progress)
+
+
+def dynamics(
+    scene: Scene,
+    speeds: Sequence[float],
+    loads: Sequence[float] | None = None,
+    *,
+    resolution: int = sweep.RESOLUTION,
+    frequency_ratio: float = 1.0,
+    mass: float | None = None,
+    progress: Progress = silent,
+) -> tuple[sweep.DynamicCurve, ...]:
+    """Compute equilibrium, stiffness and damping of a bearing over speed, and the stability of its rotor.
+
+    The film exerts the force δF = -K δq - B δq' on a shaft that moves by δq = (δx, δy) from its equilibrium. A rigid
+    rotor is stable up to the critical mass M in the bearing; above it, it whirls at the frequency ν with
+
+        Mν² = k = (Kxx Byy + Kyy Bxx - Kxy Byx - Kyx Bxy)/(Bxx + Byy),
+        ν² = ((Kxx - k)(Kyy - k) - Kxy Kyx)/det B.
+
+    Parameters
+    ----------
+    scene : a bearing whose shaft or pad moves freely; its eccentricity is ignored, and its speed gives the direction.
+    speeds : speeds of the sliding wall, m/s, above 0.
+    loads : mean pressures over the nominal area, Pa; by default the load of the scene.
+    resolution : number of cells along the film, 32 to 512; half as many are across.
+    frequency_ratio : frequency of the motion over that of the rotation for which pads that tilt, without mass, follow
+        the shaft; 0 to 10.
+    mass : mass of a rotor in the bearing, kg, whose onset of instability is sought; by default that of the scene.
+    progress : called with the done fraction and a few words.
+
+    Returns
+    -------
+    tuple of DynamicCurve
+        One curve for each load. Its ``points`` have ``stiffness`` and ``damping``, arrays of N/m and N s/m whose rows
+        are forces, and quantities by their names, ``point["whirl_ratio"]``, ``point["critical_mass"]``,
+        ``point["eccentricity"]``, with uncertainties from two coarser grids. Speeds without an equilibrium are in
+        ``omitted``; ``onset`` is the rotational speed, rad/s, at which the rotor of a mass becomes unstable.
+
+    Raises
+    ------
+    InputError
+        For another kind of scene or shape, numbers out of range, no loads where the scene has none, or a load that no
+        speed carries.
+    ConvergenceError
+        If no film converges.
+
+    References
+    ----------
+    J. W. Lund, J. Tribology 109 (1987) 37-41, doi:10.1115/1.3261324.
+
+    Examples
+    --------
+    >>> import roughfilm as rf
+    >>> scene = rf.load_scene("scripts/examples/scenes/grooved_journal.toml")
+    >>> (curve,) = rf.dynamics(scene, speeds=[5.0, 20.0], resolution=32)
+    >>> slow, fast = curve.points
+    >>> slow.stiffness.shape, slow["critical_mass"].value > fast["critical_mass"].value
+    ((2, 2), True)
+    """
+    if not isinstance(scene, Bearing):
+        raise InputError(f"scene: got {_kind(scene)}; give a bearing")
+    sweep.check_bearing(scene)
+    own = scene.load_pressure
+    if loads is None and own is None:
+        raise InputError("loads: are missing; give them, or a scene with a load")
+    given = [own] if loads is None and own is not None else [in_range("loads", load, "Pa") for load in loads or ()]
+    with finite_arithmetic("dynamics"):
+        return sweep.dynamics(
+            scene,
+            [in_range("speeds", speed, "m/s") for speed in speeds],
+            given,
+            resolution=whole_in_range("resolution", resolution, sweep.MIN_CELLS, sweep.MAX_CELLS),
+            frequency_ratio=frequency_ratio,
+            mass=sweep.mass_of(scene) if mass is None else mass,
+            progress=progress,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -90,8 +90,8 @@ def _table(
         value = None if example is None else example.get(key)
         # A table shows all its forms, unless the entry is usually the name of a file.
         rows = _rows(plain, definitions)
-        if rows and value:
-            lists.append((key, given, rows, value))
+        if rows and (value or given.get("default") == []):
+            lists.append((key, given, rows, value or []))
         elif whole and (isinstance(value, dict) or (value is None and not (plain and key in _examples()["optional"]))):
             tables.append((key, given, whole, value))
         else:
@@ -111,9 +111,9 @@ def _table(
         for way, entry in [*zip(best, entries, strict=True), *((way, None) for way in rows if way not in best)]:
             yield ""
             meaning = way.get("description", given.get("description", ""))
-            form = "another form: " if entry is None else ""
+            form = "" if entry is not None else "another form: " if entries else f"one of {len(rows)} forms: "
             yield from _wrapped(f"{'# ' if entry is None else ''}[[{'.'.join(inner)}]]", form + meaning)
-            yield from _table(inner, way, entry, definitions, entries[0])
+            yield from _table(inner, way, entry, definitions, entries[0] if entries else None)
 
 
 def _rows(ways: Iterable[Node], definitions: Node) -> list[Node]:
@@ -161,6 +161,8 @@ def sample_of(key: str, node: Node) -> object:
     if "const" in node:
         return node["const"]
     optional = _examples()["optional"]
+    if node.get("type") == "array" and f"{key}[]" in optional:
+        return optional[f"{key}[]"]
     if key in optional:
         return optional[key]
     if "enum" in node:

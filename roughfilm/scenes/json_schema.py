@@ -128,6 +128,9 @@ def _cleaned(schema: Any) -> Any:
         made["anyOf"] = ways
     if UNIT in made and isinstance(made.get("default"), float):
         made["default"] = with_unit(made["default"], made[UNIT])
+    units = [one.get(UNIT) for one in made.get("prefixItems", ())]
+    if all(units) and isinstance(made.get("default"), list):
+        made["default"] = [with_unit(value, unit) for value, unit in zip(made["default"], units, strict=True)]
     return made
 
 

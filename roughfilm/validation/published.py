@@ -16,7 +16,7 @@ class Verdict(StrEnum):
     OUTSIDE = "outside"
     """They differ by more."""
     SUSPECT = "suspect"
-    """They differ by more, and other published numbers contradict this one too: a misprint, or an inaccurate entry."""
+    """They differ by more, and other published numbers, or a method without common code, contradict this one too."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,7 +32,7 @@ class Row:
     published, ours : the values, in the unit.
     bar : accuracy of the published value, in the unit.
     uncertainty : that of ours, in the unit; None if it is unknown.
-    evidence : what other published numbers say of this one; "" if they do not contradict it.
+    evidence : what other published numbers, or a method without common code, give; "" if they do not contradict it.
     """
 
     case: str

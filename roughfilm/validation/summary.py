@@ -85,7 +85,7 @@ def headline(compared: Sequence[Compared]) -> str:
     within, outside, suspect = (sum(row.verdict is verdict for row in rows) for verdict in Verdict)
     return (
         f"{within} of {len(rows)} published numbers lie within the bar of their source; {outside} lie outside, and "
-        f"{suspect} more are contradicted by other published numbers."
+        f"{suspect} more are contradicted by other published numbers or by a second method."
     )
 
 

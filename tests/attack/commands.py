@@ -53,6 +53,26 @@ poisson = 0.3
 hardness = "3 GPa"
 """
 
+SHAFT = """
+name = "shaft"
+kind = "bearing"
+[geometry]
+shape = "lobes"
+radius = "25 mm"
+clearance = "40 um"
+width = "25 mm"
+[lubricant]
+viscosity = "15 mPa*s"
+cavitation_pressure = "-0.1 MPa"
+[motion]
+speed = "6000 rpm"
+[load]
+force = "300 N"
+[body]
+mass = "10 kg"
+unbalance = "500 g*mm"
+"""
+
 ROUGH_GAP = """
 name = "gap"
 kind = "rough_gap"
@@ -72,6 +92,7 @@ FILES = {
     "contact.toml": CONTACT,
     "pocket.toml": POCKET.format(depth='"7.5 um"', number=40),
     "pad.toml": BEARING,
+    "shaft.toml": SHAFT,
     "gap.toml": ROUGH_GAP,
     "study.toml": STUDY.format(models='["reynolds", "inertial_reynolds"]'),
     "foam.toml": STUDY.format(models='["navier_stokes"]') + "resolution.navier_stokes = 30\n",
@@ -141,6 +162,9 @@ COMMANDS = {
     "leakage": Command(words=_words("leakage seal.toml --out seal --loads 10kPa,20kPa,40kPa,80kPa --json")),
     "stribeck": Command(
         words=_words("stribeck pad.toml --out curves --resolution 16 --loads 1MPa,2MPa --speeds 1m/s,5m/s,10m/s --json")
+    ),
+    "march, shaft": Command(
+        words=_words("march shaft.toml --out marched --end 3ms --cells 16,8 --fields 3 --json"),
     ),
     "effects": Command(words=_words("effects pad.toml --out pad --resolution 16 --json")),
     "surface": Command(words=_words("surface rough.toml --out cell.h5 --report page.html --json")),

@@ -12,36 +12,39 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.dynamics.whirl import Whirl, condensed, rigid_whirl, whirl_of
 from roughfilm.rom.bearing.free.equilibrium import holding
 from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.free.solve import placed
 from roughfilm.rom.bearing.geometry.journal import Shaft
+from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.cavitation.evaluation.friction import friction
 from roughfilm.rom.cavitation.evaluation.grids import grid_uncertainty
-from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
 from roughfilm.rom.cavitation.motion.coupled import Instant
 
 ENTRIES: Mapping[int, tuple[str, ...]] = {1: ("",), 2: ("_xx", "_xy", "_yx", "_yy")}
 """Endings of the names of the entries of a matrix by the number of its rows."""
 
-UNITS: Mapping[str, str] = {
-    **{f"stiffness{entry}": "N/m" for entries in ENTRIES.values() for entry in entries},
-    **{f"damping{entry}": "N*s/m" for entries in ENTRIES.values() for entry in entries},
-    "eccentricity_x": "m",
-    "eccentricity_y": "m",
-    "eccentricity_ratio": "1",
+STATIC: Mapping[str, str] = {
+    "eccentricity": "1",
+    "eccentricity_x": "1",
+    "eccentricity_y": "1",
     "attitude_angle": "deg",
     "film_min": "m",
     "pressure_max": "Pa",
     "power_loss": "W",
-    "side_flow": "m^3/s",
+    "power_loss_per_width": "W/m",
+    "side_leakage": "m^3/s",
     "sommerfeld_number": "1",
+}
+"""Names and units of the quantities of the equilibrium, as those of a solved bearing."""
+
+UNITS: Mapping[str, str] = {
+    **{f"stiffness{entry}": "N/m" for entries in ENTRIES.values() for entry in entries},
+    **{f"damping{entry}": "N*s/m" for entries in ENTRIES.values() for entry in entries},
+    **STATIC,
     "whirl_ratio": "1",
     "critical_mass": "kg",
 }
 """Units of the numbers of a point of a bearing with a width."""
-
-PER_WIDTH = {"N/m": "N/m^2", "N*s/m": "N*s/m^2", "W": "W/m", "kg": "kg/m"}
-"""Units of the numbers of an infinitely wide bearing in place of others."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,7 +60,7 @@ class DynamicPoint:
     load : load, N (N/m if infinitely wide).
     speed : sliding speed, m/s, above 0.
     rotation : rotational speed ω, rad/s; 0 where nothing turns.
-    numbers : value of each quantity by its name, in SI units.
+    numbers : value of each quantity by its name, in SI units; per width of an infinitely wide bearing.
     uncertainty : uncertainty of each of them; infinite where it is unknown.
     residual : larger of the relative residuals of the film and of the forces.
     cpu_s : CPU time, s.
@@ -117,22 +120,18 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
     stiff = whole.stiffness + holding(film, film.load)
     at = partial(condensed, stiff[among], whole.damping[among], kept)
     stiffness, damping = at(ratio * rotation)
-    solution = film.solution(instant)
     numbers = {
         **dict(zip(named("stiffness", len(stiffness)), map(float, stiffness.flat), strict=True)),
         **dict(zip(named("damping", len(damping)), map(float, damping.flat), strict=True)),
-        "film_min": scene.geometry.at(instant.place).thinnest,
-        "pressure_max": peak_pressure(solution) + scene.lubricant.cavitation_pressure,
-        "power_loss": abs(scene.motion.speed) * friction(solution),
     }
-    if not scene.wide:
-        numbers["side_flow"] = side_flow(film, instant)
+    static = bearing_quantities(placed(film, instant), film.solution(instant))
+    power = "power_loss" if scene.wide else "power_loss_per_width"
+    numbers |= {name: static[name].value for name in STATIC if name in static and name != power}
     whirl = None
     if isinstance(scene.geometry, Shaft):
-        numbers |= shaft_numbers(film, instant)
         whirl = rigid_whirl(stiffness, damping) if kept.all() else whirl_of(at, rotation)
     return GridPoint(
-        cells=math.prod(count for count in film.solved.grid.shape if count > 1) ** 0.5, numbers=numbers, whirl=whirl
+        cells=math.prod(count for count in film.whole.grid.shape if count > 1) ** 0.5, numbers=numbers, whirl=whirl
     )
 
 
@@ -145,42 +144,6 @@ def rotation_of(scene: Bearing, speed: float) -> float:
     """The rotational speed ω of a sliding speed, rad/s; 0 where nothing turns."""
     radius = scene.turning_radius
     return 0.0 if radius is None else abs(speed) / radius
-
-
-def shaft_numbers(film: FreeFilm, instant: Instant) -> dict[str, float]:
-    """The place of a shaft and its Sommerfeld number S = ηN/p (R/c)².
-
-    The attitude angle counts from the direction of the load in the direction of rotation.
-    """
-    scene, (x, y), force = film.scene, instant.place[:2], film.load[:2]
-    geometry = scene.geometry
-    assert isinstance(geometry, Shaft)
-    turned = math.remainder(math.atan2(y, x) - math.atan2(force[1], force[0]), 2 * math.pi)
-    specific = math.hypot(*force) / scene.nominal_area
-    return {
-        "eccentricity_x": float(x),
-        "eccentricity_y": float(y),
-        "eccentricity_ratio": math.hypot(x, y) / geometry.clearance,
-        "attitude_angle": math.degrees(math.copysign(1.0, scene.motion.speed) * turned),
-        "sommerfeld_number": scene.lubricant.viscosity
-        * scene.revolutions
-        / specific
-        * (geometry.radius / geometry.clearance) ** 2,
-    }
-
-
-def side_flow(film: FreeFilm, instant: Instant) -> float:
-    """The flow that leaves through the sides, m³/s, from the balances of the nodes there.
-
-    What enters through the sides elsewhere is not subtracted; grooves that end at the sides do not count.
-    """
-    solved = film.solved
-    at_side = np.zeros(instant.balance.shape, dtype=bool)
-    inner = slice(None) if instant.network.periodic[0] else slice(1, -1)
-    at_side[inner, [-1] if solved.halved else [0, -1]] = True
-    for nodes in solved.covered:
-        at_side &= ~nodes
-    return solved.sides * float(np.maximum(-instant.balance[at_side], 0.0).sum())
 
 
 def finished(points: Sequence[GridPoint], rotation: float) -> tuple[dict[str, float], dict[str, float]]:

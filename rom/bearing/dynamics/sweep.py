@@ -5,12 +5,15 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from scipy.optimize import brentq
+
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, grid_point, rotation_of
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
-from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
 from roughfilm.rom.cavitation.motion.coupled import Instant
 from roughfilm.rom.ladder.model import Progress, silent
@@ -23,6 +26,12 @@ COARSENING = (4, 2, 1)
 
 TOLERANCE = 1e-9
 """Residual at which a film is solved."""
+
+MAX_FILM_RATIO = 3.0
+"""Largest ratio of the least films of a start and of the equilibrium that Newton's method finds from it."""
+
+ONSET_TOLERANCE = 1e-4
+"""Relative error of the speed of onset at which its search stops."""
 
 FREQUENCY_RATIOS = (0.0, 10.0)
 """Range of the frequency of the motion over that of the rotation."""
@@ -132,7 +141,7 @@ def dynamics(
         if not points:
             assert refused is not None
             raise refused
-        onset = None if mass is None else onset_of(points, mass)
+        onset = None if mass is None else onset_of(scene, points, mass, resolution, frequency_ratio)
         curves.append(DynamicCurve(pressure=pressure, points=tuple(points), omitted=tuple(omitted), onset=onset))
     return tuple(curves)
 
@@ -158,6 +167,15 @@ def dynamic_point(
     cpu = time.process_time()
     solved = list(_equilibria(scene, resolution, started))
     points = [grid_point(film, instant, frequency_ratio) for film, instant in reversed(solved)]
+    if points[0].numbers.get("stiffness", 1.0) <= 0:
+        raise InputError(
+            "load: the equilibrium of the pad is not stable; move the pivot, or take another load or speed"
+        )
+    if points[0].numbers["film_min"] <= 0:
+        raise InputError(
+            "load: the walls touch between the nodes of the grid; lower the load, or raise the speed or the viscosity"
+        )
+    points = [point for point in points if point.numbers["film_min"] > 0]
     speed, (film, instant) = abs(scene.motion.speed), solved[-1]
     rotation = rotation_of(scene, speed)
     numbers, uncertainty = finished(points, rotation)
@@ -186,7 +204,10 @@ def _equilibria(scene: Bearing, resolution: int, started: dict[int, Instant]) ->
         if start is None and coarse is not None:
             start = refined(*coarse, film)
         try:
-            instant = equilibrium(film, start, tolerance=TOLERANCE)
+            with np.errstate(all="ignore"):  # pressures that are not finite end the iteration with an error
+                instant = equilibrium(film, start, tolerance=TOLERANCE)
+                if start is not None and _far(start, instant):
+                    instant = equilibrium(film, None, tolerance=TOLERANCE)
         except (InputError, ConvergenceError) as error:
             refused += isinstance(error, InputError)
             if coarsening == COARSENING[-1] or refused > 1:
@@ -197,29 +218,55 @@ def _equilibria(scene: Bearing, resolution: int, started: dict[int, Instant]) ->
         yield film, instant
 
 
-def onset_of(points: Sequence[DynamicPoint], mass: float) -> Onset:
-    """The lowest speed at which the critical mass falls to that of a rotor, interpolated between points.
+def _far(start: Instant, found: Instant) -> bool:
+    """Whether the least film is so far from that of the start that it may be an equilibrium that is not stable."""
+    ratio = float(found.faces.thickness.min() / start.faces.thickness.min())
+    return not 1 / MAX_FILM_RATIO < ratio < MAX_FILM_RATIO
 
-    Between two points 1/M is linear over the speed.
+
+def onset_of(
+    scene: Bearing, points: Sequence[DynamicPoint], mass: float, resolution: int, frequency_ratio: float
+) -> Onset:
+    """The lowest speed at which the critical mass falls to that of a rotor.
+
+    Between the two points where it does, the speed is sought by further points.
 
     Parameters
     ----------
-    points : points in order of speed.
+    points : points under one load in order of speed.
     mass : mass of the rotor in the bearing, kg.
     """
-    excess = [
-        1 / point.numbers["critical_mass"] - 1 / mass if point.numbers["critical_mass"] else math.inf
-        for point in points
-    ]
+    excess = [_excess(point, mass) for point in points]
     if excess[0] > 0:
         return Onset(mass=mass, rotation=math.nan, uncertainty=math.inf)
-    for number in range(1, len(points)):
-        before, after = points[number - 1], points[number]
-        if excess[number] > 0:
-            low, high = before.rotation, after.rotation
-            part = excess[number - 1] / (excess[number - 1] - excess[number]) if math.isfinite(excess[number]) else 1.0
-            return Onset(mass=mass, rotation=low + part * (high - low), uncertainty=high - low)
-    return Onset(mass=mass, rotation=math.inf, uncertainty=math.inf)
+    above = next((number for number, value in enumerate(excess) if value > 0), None)
+    if above is None:
+        return Onset(mass=mass, rotation=math.inf, uncertainty=math.inf)
+    before, after = points[above - 1], points[above]
+    if not math.isfinite(excess[above]):
+        return Onset(mass=mass, rotation=after.rotation, uncertainty=after.rotation - before.rotation)
+    started: dict[int, Instant] = {}
+    tried: dict[float, DynamicPoint] = {before.speed: before, after.speed: after}
+
+    def at(speed: float) -> float:
+        if speed not in tried:
+            tried[speed] = dynamic_point(
+                at_operation(scene, speed, before.pressure), before.pressure, resolution, frequency_ratio, started
+            )
+        return _excess(tried[speed], mass)
+
+    speed = float(brentq(at, before.speed, after.speed, rtol=ONSET_TOLERANCE, xtol=ONSET_TOLERANCE * before.speed))
+    at(speed)
+    point = tried[speed]
+    slope = (excess[above] - excess[above - 1]) / (after.rotation - before.rotation)
+    error = point.uncertainty["critical_mass"] / point.numbers["critical_mass"] ** 2
+    return Onset(mass=mass, rotation=point.rotation, uncertainty=error / slope + ONSET_TOLERANCE * point.rotation)
+
+
+def _excess(point: DynamicPoint, mass: float) -> float:
+    """1/M of the critical mass M of a point minus that of a rotor, 1/kg; above 0 if the rotor is unstable."""
+    critical = point.numbers["critical_mass"]
+    return (1 / critical if critical else math.inf) - 1 / mass
 
 
 def _checked(
@@ -231,14 +278,7 @@ def _checked(
     mass: float | None,
 ) -> list[float]:
     """The speeds in increasing order; raises InputError for a bearing or a number out of range."""
-    if not isinstance(scene.geometry, Lobes):
-        raise InputError(
-            f"geometry.shape: got {scene.geometry.shape!r}; stiffness and damping are those of a shape whose walls "
-            "move freely, take 'lobes'"
-        )
-    if scene.asperities is not None or scene.roughness is not None:
-        place = "asperities" if scene.asperities is not None else "roughness"
-        raise InputError(f"{place}: got some; stiffness and damping are those of smooth walls, remove [{place}]")
+    check_bearing(scene)
     for name, values in (("speeds", speeds), ("loads", pressures)):
         wrong = [value for value in values if not 0 < value < math.inf]
         if wrong or not values:
@@ -254,3 +294,20 @@ def _checked(
     if mass is not None and not 0 < mass < math.inf:
         raise InputError(f"mass: got {mass!r} kg; it must be a finite number above 0")
     return sorted(speeds)
+
+
+def check_bearing(scene: Bearing) -> None:
+    """Raise InputError for a bearing whose walls do not move freely, or may touch."""
+    if not isinstance(scene.geometry, MovingWall):
+        raise InputError(
+            f"geometry.shape: got {scene.geometry.shape!r}; stiffness and damping are those of a wall that moves "
+            "freely, take 'lobes' or a pad about its pivot"
+        )
+    if scene.asperities is not None or scene.roughness is not None:
+        place = "asperities" if scene.asperities is not None else "roughness"
+        raise InputError(f"{place}: got some; stiffness and damping are those of smooth walls, remove [{place}]")
+
+
+def mass_of(scene: Bearing) -> float | None:
+    """The mass of the rotor in the bearing, kg; None if the scene has none."""
+    return None if scene.body is None else scene.body.mass

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.arrays import Array
@@ -113,7 +114,7 @@ def _frequency_squared(stiffness: Array, damping: Array) -> float:
     return float(((kxx - k) * (kyy - k) - kxy * kyx) / np.linalg.det(damping))
 
 
-def condensed(stiffness: Array, damping: Array, kept: Array, frequency: float) -> Matrices:
+def condensed(stiffness: Array, damping: Array, kept: NDArray[np.bool_], frequency: float) -> Matrices:
     """The stiffness and damping of some coordinates while the others, without inertia, follow their motion.
 
     With Z = K + iωB of all coordinates, the forces on the kept ones j, while those on the others p are zero, are

@@ -152,10 +152,10 @@ def _scale(scene: Bearing) -> float:
     sheared = 6 * viscosity * abs(scene.motion.speed) * length
     squeezed = 12 * viscosity * max(scene.motion.approach, 0.0) * length**2
     of_squeeze = float(np.cbrt(squeezed / scene.load_pressure))
-    return max(math.sqrt(sheared / scene.load_pressure), of_squeeze, _fed(scene))
+    return max(math.sqrt(sheared / scene.load_pressure), of_squeeze, fed_film(scene))
 
 
-def _fed(scene: Bearing) -> float:
+def fed_film(scene: Bearing) -> float:
     """The film thickness whose resistance 12η/h³ is that of a restrictor at half of its pressure, m; 0 without one."""
     viscosity, films = scene.lubricant.viscosity, [0.0]
     for inflow in scene.inflows:

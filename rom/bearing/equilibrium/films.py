@@ -65,6 +65,8 @@ class ModelFilms:
     @property
     def remedy(self) -> str:
         """The remedy for a load that is too large."""
+        if self.scene.supply:
+            return "lower the load, or raise the pressures of the supplies"
         if self.scene.roughness is None:
             return "lower the load, or raise the speed or the viscosity"
         return "lower the load, or take the model mixed with [asperities], whose walls may touch"

@@ -19,7 +19,7 @@ CLOSEST_CONTACT = 2e-3
 """Distance from the smallest known separation of walls that touch, over that of first contact from it."""
 
 CLOSEST_PAD = 1e-2
-"""The same over the film of a pad that narrows to half."""
+"""The same for pads that carry no load, and over the film of a pad about its pivot that narrows to half."""
 
 END = 0.25
 """Fraction of the length of a pad that counts as its inlet."""
@@ -35,7 +35,8 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
         return _beyond_contact(film, instant, force, contact)
     thickness, geometry, x = instant.faces.thickness, film.scene.geometry, film.solved.grid.x
     least = float(thickness.min())
-    limit = CLOSEST_PAD if isinstance(geometry, Tilting) else CLOSEST
+    pads = isinstance(geometry, Lobes) and geometry.pivot is not None
+    limit = CLOSEST_PAD if pads or isinstance(geometry, Tilting) else CLOSEST
     if least >= limit * film.wall.unit[0]:
         return None
     i = int(np.argmin(thickness.min(axis=1)))
@@ -61,6 +62,8 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
                 f"geometry: pad {pad} carries no load, and the suction of its film closes it; raise the preload, or "
                 "set lubricant.cavitation_pressure to 0 Pa, at which air enters"
             )
+    if least >= CLOSEST * film.wall.unit[0]:
+        return None
     return InputError(
         f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; lower the load, or "
         "raise the speed or the viscosity"

@@ -9,6 +9,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.bearing.free.closed import closed
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.geometry.journal import Shaft
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
@@ -16,7 +17,7 @@ from roughfilm.rom.cavitation.motion.march import held
 from roughfilm.rom.cavitation.problem import unchanging
 
 FIRST_STEP = 0.2
-"""First time step over the time in which the shaft turns by a radian, or a load would squeeze a film out."""
+"""First time step over the time in which the shaft turns by a radian."""
 
 GROWTH = 4.0
 """Ratio of successive time steps that converge."""
@@ -27,8 +28,23 @@ LAST_STEP = 1e6
 MAX_STEPS = 200
 """Largest number of time steps."""
 
-HOLDING = 1e-9
-"""Stiffness that holds a shaft and pads that no pressure moves, over the load per clearance."""
+HOLDING = 1e-6
+"""Stiffness that holds a shaft at its place before a step, over the load per clearance."""
+
+ALIGNING = 1e-7
+"""Stiffness that aligns pads with the shaft, over the load per clearance."""
+
+MAX_MOVE = 0.25
+"""Largest move of a shaft or of the edge of a pad in a step, over the clearance and its distance."""
+
+SETTLED = 1e-3
+"""Move in the last step, over the clearance, up to which the motion has ended."""
+
+FARTHEST = 100.0
+"""Distance of the shaft from the middle of its bore over the clearance beyond which no equilibrium is sought."""
+
+UNRESISTED = 1e-9
+"""Force of the film over the load below which it does not resist the load."""
 
 
 def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load: Array | None = None) -> Instant:
@@ -46,7 +62,7 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     Raises
     ------
     InputError
-        If nothing supplies the film, or it closes.
+        If nothing supplies the film, it closes, or the shaft leaves its bore.
     ConvergenceError
         If the motion does not settle.
     """
@@ -58,56 +74,67 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
             "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
         )
     force = film.load if load is None else load
-    free, held_by = film.free, holding(film, force)
     if start is not None:
-        drive = Drive(speed=solved.problem.speed, force=force, stiffness=held_by, free=free)
         try:
-            return settled(solved, start, drive, tolerance=tolerance)
+            instant = _moved(film, start, force, 0.0, tolerance)
         except ConvergenceError:
             pass
+        else:
+            if _move(film, start, instant) <= MAX_MOVE:
+                return instant
     if start is None:
         start = film.first(film.wall.place)
         constant = unchanging(solved.problem)
-        if constant != solved.problem and free.any():
+        if constant != solved.problem and film.free.any():
             simple = replace(film, solved=replace(solved, problem=constant))
-            start = _settling(simple, start, force, held_by, tolerance)
-    return _settling(film, start, force, held_by, tolerance)
+            start = _settling(simple, start, force, tolerance)
+    return _settling(film, start, force, tolerance)
 
 
-def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tolerance: float) -> Instant:
+def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) -> Instant:
     """The end of the motion without mass from a film.
 
-    At rest the last step is a long one: nothing determines how far the cavities of a steady film would be filled.
+    At rest the last step may be a long one: nothing determines how far the cavities of a steady film would be filled.
     """
-    solved, free, count, speed = film.solved, film.free, force.size, film.solved.problem.speed
-    time = 1 / _rate(film, force)
+    solved, count, speed = film.solved, force.size, film.solved.problem.speed
+    time, shaft = 1 / _rate(film), isinstance(film.scene.geometry, Shaft)
     step = FIRST_STEP * time
     given = Drive(
         speed=speed,
         force=force,
         stiffness=np.zeros((count, count)),
         free=np.zeros(count, dtype=bool),
-        storage=(0.0, 0.0) if speed else (1 / time, held(solved, start) / time),
+        storage=(0.0, 0.0) if speed or not film.free.any() else (1 / time, held(solved, start) / time),
     )
     instant = settled(solved, start, given, tolerance=tolerance)
-    if not free.any():
+    if not film.free.any():
         return instant
     for _ in range(MAX_STEPS):
         last = step >= LAST_STEP * time
-        storage = (0.0, 0.0) if last and speed else (1 / step, held(solved, instant) / step)
-        drive = Drive(speed=speed, force=force, stiffness=held_by, free=free, storage=storage)
-        try:
-            instant = settled(solved, instant, drive, tolerance=tolerance)
-        except ConvergenceError:
+        following = None
+        for rate in ((0.0,) if speed else (0.0, 1 / step)) if last else (1 / step,):
+            try:
+                following = _moved(film, instant, force, rate, tolerance)
+            except ConvergenceError:
+                continue
+            break
+        move = np.inf if following is None else _move(film, instant, following)
+        if following is None or move > MAX_MOVE:
             step /= GROWTH**2
             if step < 1e-6 * time:
                 break
             continue
+        instant = following
         if (reason := closed(film, instant, force)) is not None:
             raise reason
-        if last:
+        if last and move <= SETTLED:
             return instant
+        if shaft and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]:
+            raise _leaves(force)
         step *= GROWTH
+    unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
+    if shaft and unresisted:
+        raise _leaves(force)
     other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
     raise ConvergenceError(
         f"load: the motion towards the equilibrium does not settle; take more cells, or {other}",
@@ -116,31 +143,82 @@ def _settling(film: FreeFilm, start: Instant, force: Array, held_by: Array, tole
     )
 
 
-def _rate(film: FreeFilm, force: Array) -> float:
-    """The rate at which the shaft turns, rad/s, or at which the load would squeeze a film out at rest, if larger.
+def _moved(film: FreeFilm, instant: Instant, force: Array, rate: float, tolerance: float) -> Instant:
+    """The film after a step of backward Euler of the length 1/rate, s; in equilibrium for the rate 0."""
+    solved, held_by, aligned_by = film.solved, np.diag(_held(film, force)), holding(film, force)
+    storage = (rate, rate * held(solved, instant)) if rate else (0.0, 0.0)
+    drive = Drive(
+        speed=solved.problem.speed,
+        force=force + held_by @ instant.place,
+        stiffness=held_by + aligned_by,
+        free=film.free,
+        storage=storage,
+    )
+    return settled(solved, instant, drive, tolerance=tolerance)
 
-    A load W per width closes a film in a time of about 12π η (R/c)² R/W.
-    """
-    scene, geometry = film.scene, film.scene.geometry
-    turning = max(abs(scene.motion.speed) / geometry.length * 2 * np.pi, 1e-6)
-    if not isinstance(geometry, Shaft):
-        return turning
-    width = 1.0 if film.whole.problem.shape.wide else geometry.width or 1.0
-    resistance = 12 * np.pi * scene.lubricant.viscosity * (geometry.radius / geometry.clearance) ** 2
-    return max(turning, float(np.hypot(*force[:2])) / (resistance * geometry.radius * width))
+
+def _move(film: FreeFilm, instant: Instant, following: Instant) -> float:
+    """The largest move of a coordinate over its unit and its size; 0 of a pad about its pivot, which may move more."""
+    if not isinstance(film.scene.geometry, Shaft):
+        return 0.0
+    sizes = film.wall.unit + np.abs(instant.place)
+    return float((np.abs(following.place - instant.place) / sizes).max())
+
+
+def _leaves(force: Array) -> InputError:
+    toward = np.degrees(np.arctan2(force[1], force[0]))
+    return InputError(
+        f"load: got {np.hypot(*force[:2]):.6g} N towards {toward:.4g} degrees from the x axis; no film resists it, and "
+        "the shaft leaves its bore; turn the load or the bore, or take a longer arc"
+    )
+
+
+def _rate(film: FreeFilm) -> float:
+    """The rate at which the shaft turns, rad/s, or at which the load would close the clearance at rest."""
+    scene, length = film.scene, film.scene.geometry.length
+    if scene.motion.speed:
+        return abs(scene.motion.speed) / length * 2 * np.pi
+    squeezed = (scene.load_pressure or 0.0) / scene.lubricant.viscosity * (float(film.wall.unit[0]) / length) ** 2
+    return max(squeezed, 1e-6)
 
 
 def holding(film: FreeFilm, force: Array) -> Array:
-    """The stiffness that holds a shaft and its pads where no pressure moves them, shape (coordinates, coordinates).
+    """The stiffness that aligns pads with the shaft, shape (coordinates, coordinates); 0 without tilting pads.
 
-    A pad without pressure has no moment at any tilt, and a shaft on a single pad that tilts no force across it. With
-    the stiffness such a pad rests at the least tilt at which its film carries nothing, and the shaft nearest to the
-    middle. A pad of a thrust bearing always carries its load, and has none.
+    A pad without pressure has no moment at any tilt. With the angle θ_p of its pivot and the place e of the shaft, its
+    film is symmetric about the pivot but for the term -(e_t + R δ) sin(θ - θ_p) with e_t = e_y cos θ_p - e_x sin θ_p.
+    The stiffness opposes e_t + R δ, so that a pad that carries no load rests at the tilt nearest to alignment at which
+    its film carries nothing. It changes moments of pads that carry load by about ``ALIGNING``.
     """
-    unit = film.wall.unit
+    geometry, unit = film.scene.geometry, film.wall.unit
+    stiffness = np.zeros((unit.size, unit.size))
+    if isinstance(geometry, Lobes):
+        for pad, angle in enumerate(geometry.pivots):
+            tangent = np.zeros(unit.size)
+            tangent[:2], tangent[2 + pad] = (-np.sin(angle), np.cos(angle)), geometry.radius
+            stiffness += np.outer(tangent, tangent)
+    return np.asarray(ALIGNING * _load_scale(film, force) / unit[0] * stiffness)
+
+
+def _held(film: FreeFilm, force: Array) -> Array:
+    """The stiffness of each coordinate against moves in a step, which has no force in equilibrium.
+
+    A shaft on a single pad that tilts has no force across it. A pad of a thrust bearing is held by its film alone.
+    """
     if not isinstance(film.scene.geometry, Shaft):
-        return np.zeros((unit.size, unit.size))
-    return np.diag(HOLDING * np.abs(force).max() * unit[0] / unit**2)
+        return np.zeros(film.wall.unit.size)
+    unit = film.wall.unit
+    return np.where(film.wall.turns, 0.0, HOLDING * _load_scale(film, force) / unit)
+
+
+def _load_scale(film: FreeFilm, force: Array) -> float:
+    """The load of a shaft, or η u B (R/c)² if that is larger, N."""
+    scene, unit = film.scene, film.wall.unit
+    if not isinstance(scene.geometry, Shaft):
+        return 0.0
+    width = 1.0 if film.whole.problem.shape.wide else scene.geometry.width or 1.0
+    sliding = scene.lubricant.viscosity * abs(scene.motion.speed) * width * (scene.geometry.radius / unit[0]) ** 2
+    return float(max(np.abs(force).max(), sliding))
 
 
 def refined(coarse: FreeFilm, instant: Instant, fine: FreeFilm) -> Instant:

@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.equilibrium.expected import fed_film
 from roughfilm.rom.bearing.free.lay import straight
+from roughfilm.rom.bearing.free.walls import bearing_at
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
 from roughfilm.rom.bearing.geometry.rigid import MovingWall, RigidWall
@@ -18,19 +20,18 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.supply.patches import in_the_middle
 from roughfilm.rom.cavitation.grid import doubled, grid
 from roughfilm.rom.cavitation.motion.contact import ContactLaw
-from roughfilm.rom.cavitation.motion.coupled import Instant, kinds
+from roughfilm.rom.cavitation.motion.coupled import Instant, full_film
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import State, Values
 from roughfilm.rom.cavitation.problem import Inflow, Problem
-from roughfilm.rom.cavitation.restricted import first_pressures
 from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.cavitation.solve import Level, Solution, mirrored, mirrored_inflow
 
 WEDGE_LOAD = 0.16
 """Load of an infinitely wide pad over η u L²/h², whose film narrows to about half its thickness."""
 
-MAX_FIRST_FILM = 1e-2
-"""Largest film over the length of a pad at which the search for an equilibrium begins."""
+FIRST_FILM, MAX_FIRST_FILM = 1e-6, 1e-2
+"""Smallest and largest film over the length of a pad at which the search for an equilibrium begins."""
 
 AT_EDGE = 1e-9
 """Distance from the edge of a groove, over the length of the film, up to which a node lies on it."""
@@ -59,8 +60,8 @@ class FreeFilm:
     def free(self) -> NDArray[np.bool_]:
         """Whether each coordinate is sought: the shaft under a load, and pads without a given tilt."""
         geometry = self.scene.geometry
-        assert isinstance(geometry, MovingWall)
-        return np.where(self.wall.turns, not geometry.tilted, self.scene.load is not None)
+        tilted = isinstance(geometry, MovingWall) and geometry.tilted
+        return np.where(self.wall.turns, not tilted, self.scene.load is not None)
 
     @cached_property
     def load(self) -> Array:
@@ -69,24 +70,8 @@ class FreeFilm:
         return load_of_scene(self.scene)[: self.wall.place.size] / ((self.scene.geometry.width or 1.0) if line else 1.0)
 
     def first(self, place: Array) -> Instant:
-        """A full film at ambient pressure and given coordinates, from which an iteration starts."""
-        film = self.solved
-        faces = film.faces(place)
-        pressures = first_pressures(film.inflows, film.covered, None)
-        net = film.network(faces, pressures, speed=film.problem.speed)
-        state = State(pressure=np.where(net.fixed, net.pressure, 0.0), fill=np.ones(net.shape))
-        return Instant(
-            place=place,
-            pressures=pressures,
-            state=state,
-            kind=kinds(net, state),
-            faces=faces,
-            network=net,
-            balance=np.zeros(net.shape),
-            residual=np.inf,
-            force_residual=np.inf,
-            iterations=0,
-        )
+        """A full film at given coordinates, from which an iteration starts."""
+        return full_film(self.solved, place)
 
     def widened(self, values: Values) -> Values:
         """Values over the whole width from those of the film that is solved."""
@@ -122,6 +107,7 @@ def free_film(
     film: Callable[[Bearing], Problem] = Bearing.problem,
     ruptures: bool = True,
     contact: ContactLaw | None = None,
+    wall: RigidWall | None = None,
 ) -> FreeFilm:
     """The film of a bearing on about ``cells`` equal cells along and across.
 
@@ -130,14 +116,18 @@ def free_film(
     film : film(scene), the problem that the model solves.
     ruptures : whether the film cavitates.
     contact : the contact pressure of the walls over the film thickness; None of walls that do not touch.
+    wall : the coordinates of the wall; by default those of a shaft in lobes or of a pad about a pivot.
     """
-    geometry = _started(scene, contact)
-    problem = film(scene.moved(geometry.at(geometry.wall.place)))
+    if wall is None:
+        moving = _started(scene, contact)
+        wall, placed = moving.wall, scene.moved(moving.at(moving.wall.place))
+    else:
+        placed = bearing_at(scene, wall.place)
+    problem = film(placed)
     if problem.shape.roughness is not None and scene.roughness is not None:
         problem = straight(problem, scene.roughness.rms)
-    even = _even(scene, geometry, problem.shape)
-    across = "slope_y" in geometry.wall.names and (even or problem.shape.wide)
-    wall = geometry.wall.first(2) if across else geometry.wall
+    even = _even(scene, problem.shape)
+    wall = wall.first(2) if "slope_y" in wall.names and (even or problem.shape.wide) else wall
     modes, shaped = wall.normals, problem.shape.thickness
     at_rest = replace(
         problem,
@@ -175,12 +165,12 @@ def _mirrored(function: Callable[[Array, Array], Values], ends: float) -> Callab
     return lambda x, y: function(ends - x, y)
 
 
-def _even(scene: Bearing, geometry: MovingWall, shape: Shape) -> bool:
+def _even(scene: Bearing, shape: Shape) -> bool:
     """Whether the film has a width and is symmetric about the middle of it in equilibrium."""
-    sides, load = scene.boundary.sides, scene.load
+    geometry, sides, load = scene.geometry, scene.boundary.sides, scene.load
     rough = scene.roughness is not None and shape.roughness is None
     turning = load is not None and load.moment_x != 0
-    even = geometry.symmetric and in_the_middle(scene.supply_patches, shape.across)
+    even = isinstance(geometry, MovingWall) and geometry.symmetric and in_the_middle(scene.supply_patches, shape.across)
     return even and sides.low == sides.high and not (shape.wide or rough or turning)
 
 
@@ -196,7 +186,8 @@ def _half(whole: Problem) -> Problem:
 def _gaps(scene: Bearing) -> tuple[Inflow, ...]:
     """The gaps between lobes, in which the pressure is that of the inlet."""
     geometry = scene.geometry
-    assert isinstance(geometry, MovingWall)
+    if not isinstance(geometry, MovingWall):
+        return ()
     length = scene.geometry.length
     edge, pressure = AT_EDGE * length, scene.inlet_pressure - scene.lubricant.cavitation_pressure
 
@@ -216,7 +207,8 @@ def load_of_scene(scene: Bearing) -> Array:
     size = 0.0 if scene.load_pressure is None else scene.load_pressure * scene.nominal_area
     if isinstance(geometry, Pivoted | PivotedSector):
         return geometry.forces(size, (0.0, 0.0) if load is None else (load.moment_x, load.moment_y))
-    assert isinstance(geometry, Lobes)
+    if not isinstance(geometry, Lobes):
+        return np.array([-size])
     force = np.zeros(len(geometry.wall.names))
     if load is not None:
         force[:2] = size * np.cos(load.angle), size * np.sin(load.angle)
@@ -234,6 +226,7 @@ def _started(scene: Bearing, contact: ContactLaw | None) -> Lobes | Pivoted | Pi
         return geometry
     share = 1.0 if geometry.width is None else 1 / (1 + (geometry.length / geometry.width) ** 2)
     sheared = scene.lubricant.viscosity * abs(scene.motion.speed) * geometry.length
-    film = min(math.sqrt(WEDGE_LOAD * share * sheared / pressure), MAX_FIRST_FILM * geometry.length)
+    film = max(math.sqrt(WEDGE_LOAD * share * sheared / pressure), fed_film(scene), FIRST_FILM * geometry.length)
+    film = min(film, MAX_FIRST_FILM * geometry.length)
     film = film if contact is None else max(film, contact.touching)
     return geometry.started(film, reverse=scene.motion.speed < 0)

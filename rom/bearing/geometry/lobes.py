@@ -20,6 +20,9 @@ from roughfilm.rom.cavitation.shape import Shape
 SAMPLES = 721
 """Number of angles at which the least film of a lobe is sought."""
 
+JOINT = 1e-11
+"""Distance of these angles from the ends of the lobe, rad."""
+
 DOWN = -math.pi / 2
 """The direction of a load that points downwards, rad."""
 
@@ -112,6 +115,13 @@ class Lobes(Shaft, MovingWall):
         return 2 * math.pi * lobe / self.lobes
 
     @property
+    def pivots(self) -> Array:
+        """The angles of the pivots of the pads, rad; none without pivots."""
+        if self.pivot is None:
+            return np.zeros(0)
+        return self.start + self.pivot * self.turn + np.array([self.begins(lobe) for lobe in range(self.lobes)])
+
+    @property
     def film(self) -> float | None:
         """The least film thickness, m; None if a load determines it."""
         return None if self.eccentricity is None else self.least_film
@@ -124,11 +134,27 @@ class Lobes(Shaft, MovingWall):
     @property
     def least_film(self) -> float:
         """The least film thickness at the eccentricity, m; negative where the shaft reaches into the bore."""
-        x = np.concatenate(
-            [self.radius * (self.begins(lobe) + np.linspace(0, self.turn, SAMPLES)) for lobe in range(self.lobes)]
+        return float(min(self.thickness(x, y).min() for x, y in self._samples()))
+
+    def least_films(self, eccentricity: Array) -> Array:
+        """The least film thickness, m, at positions of the shaft over the clearance, shape (2, n), without tilts."""
+        along, up = self.clearance * eccentricity[..., None]
+        return np.asarray(
+            np.min(
+                [
+                    (self.bore(x, y) - along * np.cos(self.angle(x)) - up * np.sin(self.angle(x))).min(axis=-1)
+                    for x, y in self._samples()
+                ],
+                axis=0,
+            )
         )
-        sides = [0.0] if self.width is None else [0.0, self.width]
-        return float(min(self.thickness(x * (1 - 1e-12), np.full_like(x, side)).min() for side in sides))
+
+    def _samples(self) -> Iterator[tuple[Array, Array]]:
+        """Positions on both sides at which the least film is sought."""
+        inside = np.linspace(JOINT, self.turn - JOINT, SAMPLES)
+        x = self.radius * np.concatenate([self.begins(lobe) + inside for lobe in range(self.lobes)])
+        for side in [0.0] if self.width is None else [0.0, self.width]:
+            yield x, np.full_like(x, side)
 
     def at_film(self, film: float) -> Self:
         """The bearing with its shaft moved along its eccentricity, or down, to another least film thickness, m."""

@@ -84,7 +84,7 @@ def _count(features: int, least: int, most: int) -> int:
 def _thinnest(shape: Shape, x: Array, y: Array, *, turned: bool) -> LeastFilm:
     """The thinnest of the films at positions x and y; the first along the sliding, nearest to the middle across."""
     h = shape.thickness(*np.meshgrid(x, y, indexing="ij"))
-    thin = h <= h.min() * (1 + SAME)
+    thin = h <= h.min() + SAME * abs(h.min())
     columns = np.flatnonzero(thin.any(axis=1))
     i = columns[-1 if turned else 0]
     rows = np.flatnonzero(thin[i])

@@ -38,7 +38,7 @@ REPORTED: Mapping[str, str] = {
         for name, title in {
             f"supply_{number}_flow": f"flow of supply {number}",
             f"supply_{number}_flow_per_width": f"flow of supply {number} per width",
-            f"supply_{number}_pressure": f"pressure behind supply {number}",
+            f"supply_{number}_pressure": f"pressure in supply {number}",
         }.items()
     },
     "friction": "friction",

@@ -39,10 +39,15 @@ class Drag:
     between: Array
 
 
-def drag_of_rows(solution: Solution) -> Drag:
-    """The friction of the liquid, row by row."""
+def drag_of_rows(solution: Solution, *, halved: bool = False) -> Drag:
+    """The friction of the liquid, row by row.
+
+    Parameters
+    ----------
+    halved : whether the lowest row is the middle of a symmetric film, whose other half is not counted.
+    """
     grid, rough = solution.grid, solution.faces.averaged
-    along = (grid.volume_y * _pull(solution)).sum(axis=0)
+    along = (grid.volume_y * _pull(solution, halved=halved)).sum(axis=0)
     if rough is None or grid.shape[1] == 1:
         return Drag(rows=along, between=np.zeros(grid.shape[1] - 1))
     climb = solution.state.pressure[:, 1:] - solution.state.pressure[:, :-1]
@@ -56,7 +61,7 @@ def wall_stress(solution: Solution) -> Array:
     return np.divide(pull, lengths, out=np.zeros_like(pull), where=lengths > 0)
 
 
-def _pull(solution: Solution) -> Array:
+def _pull(solution: Solution, *, halved: bool = False) -> Array:
     """The force per width on the sliding wall between the nodes of each face towards i + 1, N/m, shape (nx, ny)."""
     grid, mean, problem = solution.grid, solution.faces.mean, solution.problem
     fluidity = problem.piezoviscosity.fluidity(solution.state.pressure, problem.viscosity)[0]
@@ -64,7 +69,8 @@ def _pull(solution: Solution) -> Array:
     speed = problem.speed * (grid.radius if problem.shape.polar else 1.0)
     fill = carried(solution)
     if problem.ends.sides is not None:  # the outermost lines belong to the bath
-        fill = np.pad(fill[:, 1:-1], ((0, 0), (1, 1)), mode="edge")
+        inner = fill[:, :-1] if halved else fill[:, 1:-1]
+        fill = np.pad(inner, ((0, 0), (0 if halved else 1, 1)), mode="edge")
     rough = solution.faces.averaged
     with np.errstate(divide="ignore", invalid="ignore"):
         gradient = fill / mean if rough is None else _shear_factor(solution, rough, fill)

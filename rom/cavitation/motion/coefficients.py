@@ -42,7 +42,7 @@ def coefficients(film: MovingFilm, at: Instant, *, speed: float) -> Coefficients
     count = at.place.size
     nothing = np.zeros((count, count))
     drive = Drive(speed=speed, force=np.zeros(count), stiffness=nothing, free=np.ones(count, dtype=bool))
-    trial = trial_at(film, at, drive).evaluate()
+    trial = trial_at(film, at, drive).sample().evaluate()
     areas, thickness = film.grid.areas, trial.faces.thickness
     excess, slope = film.problem.compression(trial.pressure)
     by_unknown = areas * thickness * np.where(trial.kind == FILM, slope, np.where(trial.kind == CAVITY, 1.0, 0.0))

@@ -6,7 +6,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, finite_arithmetic
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, settle_bank
 from roughfilm.rom.cavitation.discretise import Faces
@@ -15,6 +15,8 @@ from roughfilm.rom.cavitation.motion.contact import ContactForce
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import BALANCE_ROUNDOFF, Linear
+from roughfilm.rom.cavitation.relaxation import relaxed
+from roughfilm.rom.cavitation.restricted import first_pressures
 
 DIFFERENCE = 1e-6
 """Change of the film thickness over the least distance from the smallest one, for derivatives by the coordinates."""
@@ -27,11 +29,22 @@ FORCE_TOLERANCE = 1e-9
 
 NEAR_LINEAR, MIN_PASSABLE = 0.5, 1e-3
 """Relative change by which the flow through a restrictor may differ from a linear one in a step, and the least part."""
+
+SWEEPS, SWEEPS_OF_LINE = 5, 20
+"""Relaxation sweeps after a step that changed the kind of a node, in the plane and on a line.
+
+In the plane they follow a step only if it changed fewer nodes than all before, since steps and sweeps may otherwise
+move nodes to and fro; and everywhere only if no storage is negative, so that the balances form an M-function.
+"""
+
 STALLED = 0.5
 """Ratio of successive residuals from which on they are the round-off of the pressures, or nearly so."""
 
 LEAST_FLOW = 1e-3
 """Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
+
+LEAST_PART = 1e-3
+"""Least size of the parts of the force on a coordinate over that on the whole film: pads may carry nothing."""
 
 COLUMNS_KEPT = 5
 """Number of steps for which the derivatives by the coordinates are kept: they change little from step to step."""
@@ -115,14 +128,26 @@ class Trial:
     network: Network = field(init=False)
     linear: Linear = field(init=False)
     largest: float = field(init=False)
+    factors: Bands | None = None
     columns: Array | None = None
 
-    def evaluate(self) -> Self:
-        """Evaluate the balances and their derivatives; nodes behind restrictors keep theirs."""
+    def sample(self) -> Self:
+        """Sample the film at the coordinates."""
         film, drive = self.film, self.drive
         self.faces = film.faces(self.place)
         self.contact = film.contact_at(self.place)
-        self.network = net = film.network(self.faces, self.pressures, speed=drive.speed, storage=drive.storage)
+        self.network = film.network(self.faces, self.pressures, speed=drive.speed, storage=drive.storage)
+        return self
+
+    def relax(self) -> None:
+        """Relax the unknowns of the nodes, which moves fronts over many nodes; a Newton step may move them by one."""
+        sweeps = SWEEPS_OF_LINE if self.network.shape[1] == 1 else SWEEPS
+        state = relaxed(self.network, self.film.problem, State(pressure=self.pressure, fill=self.fill), sweeps)
+        self.pressure, self.fill, self.kind = state.pressure, state.fill, kinds(self.network, state)
+
+    def evaluate(self) -> Self:
+        """Evaluate the balances and their derivatives; nodes behind restrictors keep theirs."""
+        film, net = self.film, self.network
         self.kind = np.where(net.fixed, np.int8(FIXED), np.where(self.kind == FIXED, np.int8(FILM), self.kind))
         self.pressure = np.where(net.fixed, net.pressure, self.pressure)
         self.fill = np.where(self.kind == CAVITY, self.fill, 1.0)
@@ -135,7 +160,7 @@ class Trial:
         self.largest = net.linearise(known, self.pressure, self.fill, laws, parts) or 1.0
         for bank, rest in zip(net.banks(self.kind), net.banks(parts[0]), strict=True):
             settle_bank(bank, rest)
-        self.linear = Linear(self.kind, mobility[0], *parts)
+        self.linear, self.factors = Linear(self.kind, mobility[0], *parts), None
         return self
 
     @property
@@ -186,10 +211,12 @@ class Trial:
 
     @property
     def sizes(self) -> Array:
-        """The sum of the sizes of the parts of the force on each coordinate; 1 without any force."""
+        """The sum of the sizes of the parts of the force on each coordinate, bounded below; 1 without any force."""
         film = self.film
-        parts = np.abs(self.pressure - film.ambient).ravel() @ np.abs(film.weights)
-        sizes = parts + self.contact.sizes + np.abs(self.drive.force)
+        above = np.abs(self.pressure - film.ambient)
+        sizes = above.ravel() @ np.abs(film.weights) + self.contact.sizes + np.abs(self.drive.force)
+        least = LEAST_PART * film.sides * float((above * film.grid.areas).sum()) * film.reach
+        sizes = np.maximum(sizes, least)
         return np.where(sizes > 0, sizes, 1.0)
 
     def by_coordinates(self, *, central: bool = False) -> Array:
@@ -199,8 +226,8 @@ class Trial:
         for column, number in enumerate(free):
             step = np.zeros(self.place.size)
             step[number] = DIFFERENCE * least / float(self.film.reach[number])
-            ahead = replace(self, place=self.place + step).evaluate().linear.balance
-            behind = replace(self, place=self.place - step).evaluate() if central else self
+            ahead = replace(self, place=self.place + step).sample().evaluate().linear.balance
+            behind = replace(self, place=self.place - step).sample().evaluate() if central else self
             columns[..., column] = (ahead - behind.linear.balance) / ((2 if central else 1) * step[number])
         return columns
 
@@ -215,8 +242,9 @@ class Trial:
         film, known = self.film, (self.kind >= FIXED)[..., None]
         within = [film.covered[number] for number in film.restricted]
         columns = [self.linear.image(nodes.astype(float))[..., None] for nodes in within]
-        bands = Bands(self.linear, known[..., 0], periodic=self.network.periodic[0])
-        change = bands.solve(np.where(known, 0.0, np.concatenate([sources, *columns], axis=-1)))
+        if self.factors is None:
+            self.factors = Bands(self.linear, known[..., 0], periodic=self.network.periodic[0])
+        change = self.factors.solve(np.where(known, 0.0, np.concatenate([sources, *columns], axis=-1)))
         if not within:
             return Response(change=change, pressures=np.zeros((0, sources.shape[-1])))
         count = sources.shape[-1]
@@ -262,9 +290,29 @@ def _solved(matrix: Array, right: Array) -> Array:
         return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         raise ConvergenceError(
-            "motion: the film does not resist the motion of its wall; give a mass, or a place nearer to the equilibrium",
+            "motion: the film does not resist the motion of its wall; give a mass, or a start near the equilibrium",
             outcome=Outcome.DIVERGED,
         ) from None
+
+
+def full_film(film: MovingFilm, place: Array) -> Instant:
+    """A full film at cavitation pressure and given coordinates, from which an iteration starts."""
+    faces = film.faces(place)
+    pressures = first_pressures(film.inflows, film.covered, None)
+    net = film.network(faces, pressures, speed=film.problem.speed)
+    state = State(pressure=np.where(net.fixed, net.pressure, 0.0), fill=np.ones(net.shape))
+    return Instant(
+        place=place,
+        pressures=pressures,
+        state=state,
+        kind=kinds(net, state),
+        faces=faces,
+        network=net,
+        balance=np.zeros(net.shape),
+        residual=np.inf,
+        force_residual=np.inf,
+        iterations=0,
+    )
 
 
 def trial_at(film: MovingFilm, instant: Instant, drive: Drive) -> Trial:
@@ -280,6 +328,7 @@ def trial_at(film: MovingFilm, instant: Instant, drive: Drive) -> Trial:
     )
 
 
+@finite_arithmetic("motion")
 def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float, limit: int = ITERATIONS) -> Instant:
     """The instant at which inflow equals outflow at every node and behind every restrictor, and all forces balance.
 
@@ -302,11 +351,15 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         If the iteration does not converge.
     """
     trial = trial_at(film, start, drive)
-    free, whole, open_by = np.flatnonzero(drive.free), True, CLOSED * film.room(trial.place)
-    residual = force_residual = np.inf
-    unbalanced = residual, residual
+    free, whole, line = np.flatnonzero(drive.free), True, film.grid.shape[1] == 1
+    residual = force_residual = fewest = np.inf
+    changed, unbalanced, open_by = 0, (np.inf, np.inf), CLOSED * film.room(trial.place)
     for iteration in range(limit + 1):
         with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
+            trial.sample()
+            if film.ruptures and 0 < changed < fewest and trial.network.storage.min() >= 0:
+                fewest = np.inf if line else changed
+                trial.relax()
             trial.evaluate()
         before, unbalanced = unbalanced, trial.unbalanced(round_off=False)
         if unbalanced[0] > STALLED * before[0]:
@@ -337,8 +390,7 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         part = MAX_APPROACH / max(film.closing(trial.place, moved), MAX_APPROACH) * _passable(trial, pressures)
         trial.place = trial.place + part * moved
         trial.pressures[list(film.restricted)] += part * pressures
-        _advance(trial, part * change)
-        whole = part == 1
+        changed, whole = _advance(trial, part * change), part == 1
         if not whole and film.room(trial.place) < open_by:
             residual = np.inf
             break
@@ -386,12 +438,12 @@ def _passable(trial: Trial, change: Array) -> float:
     return part
 
 
-def _advance(trial: Trial, change: Array) -> None:
-    """Add the change to the unknowns of the nodes, which may change their kind."""
+def _advance(trial: Trial, change: Array) -> int:
+    """Add the change to the unknowns of the nodes; returns how many nodes changed their kind."""
     if trial.film.ruptures:
-        advance(*(values.reshape(-1) for values in (trial.kind, trial.pressure, trial.fill, change)))
-    else:
-        trial.pressure += np.where(trial.kind == FILM, change, 0.0)
+        return int(advance(*(values.reshape(-1) for values in (trial.kind, trial.pressure, trial.fill, change))))
+    trial.pressure += np.where(trial.kind == FILM, change, 0.0)
+    return 0
 
 
 def kinds(network: Network, state: State) -> NDArray[np.int8]:

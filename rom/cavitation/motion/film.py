@@ -181,7 +181,8 @@ class MovingFilm:
         The smallest separation of flattened walls may be as near between nodes as it is far from 0 at them.
         """
         if self.contact is None:
-            yield self._at_rest + self.at_nodes @ place, self.at_nodes
+            rest, modes = self._beside
+            yield rest + modes @ place, self.at_nodes
             return
         for rest, modes in (self._sampled[:2], self._between, self._quarters[:2]):
             yield rest + modes @ place - self.contact.closest, modes
@@ -193,10 +194,11 @@ class MovingFilm:
         return self.problem.shape.thickness(x, y), self.modes(x, y)
 
     @cached_property
-    def _at_rest(self) -> Array:
-        """h₀ at the nodes, m."""
-        x, y = np.meshgrid(self.grid.x, self.grid.y, indexing="ij")
-        return self.problem.shape.thickness(x, y)
+    def _beside(self) -> tuple[Array, Array]:
+        """h₀ and n at the nodes, the mean over both sides of a step, as the film thickness has it."""
+        rest, modes, (shape, *_) = self._sampled
+        count = math.prod(shape)
+        return rest[:count].reshape(shape).mean(axis=0), modes[:count].reshape(*shape, -1).mean(axis=0)
 
     @cached_property
     def weights(self) -> Array:

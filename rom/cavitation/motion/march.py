@@ -41,7 +41,7 @@ class Course:
     force : force(t) on each coordinate besides that of the film, N (N m).
     mass : mass matrix, kg (kg m²); coordinates without mass move so that their forces balance.
     stiffness : matrix S of forces -S q of springs, N/m.
-    velocity_scale : size of the velocities, m/s, on which the error of a time step is related, for each coordinate.
+    velocity_scale : size of the velocities, m/s, to which the error of a time step is related, for each coordinate.
     """
 
     free: NDArray[np.bool_]
@@ -74,7 +74,7 @@ class Moving:
     step : the time step that led here, s; 0 at the start.
     following : the time step that is proposed next, s.
     order : the order of the step.
-    error : estimated relative error of the velocities of the step.
+    error : estimated relative error of the coordinates of the step.
     """
 
     instant: Instant
@@ -130,7 +130,8 @@ def march(
     start : the film from which the march goes on.
     end : the last time, s.
     largest_step : largest time step, s.
-    error : largest error of a step, of the velocities over ``velocity_scale``; None for steps of ``largest_step``.
+    error : largest error of the coordinates in a step, over the way at ``velocity_scale`` in the largest step; None for
+        steps of ``largest_step``.
     tolerance : residual at which a step is solved.
     closest : film thickness, m, below which the march ends with an error.
 
@@ -159,13 +160,14 @@ def march(
             size = left
         elif left < 2 * size:
             size = left / 2
-        following = _attempt(film, course, moving, size, order=2 if len(moving.past) > 1 else 1, tolerance=tolerance)
+        order = 2 if len(moving.past) > 1 else 1
+        following = _attempt(film, course, moving, size, order=order, tolerance=tolerance, longest=largest_step)
         ratio = MIN_GROWTH
         if following is not None:
             estimate = following.error
             ratio = MAX_GROWTH
             if error is not None and estimate > 0:
-                power = 1.0 / (following.order + (1 if len(moving.past) < 3 else 0))
+                power = 1.0 / (following.order + 1)
                 ratio = min(max(SAFETY * (error / estimate) ** power, MIN_GROWTH), MAX_GROWTH)
         if following is None or (error is not None and following.error > error and size > MIN_STEP * largest_step):
             size *= min(ratio, 0.7)
@@ -218,7 +220,14 @@ def _stopped(moving: Moving, closest: float) -> ConvergenceError:
 
 
 def _attempt(
-    film: MovingFilm, course: Course, moving: Moving, size: float, *, order: int, tolerance: float
+    film: MovingFilm,
+    course: Course,
+    moving: Moving,
+    size: float,
+    *,
+    order: int,
+    tolerance: float,
+    longest: float,
 ) -> Moving | None:
     """The film after a time step; None if the step does not converge."""
     time = moving.now.time + size
@@ -242,7 +251,7 @@ def _attempt(
     except ConvergenceError:
         return None
     if order > 1 and instant.state.fill.min() < EMPTY:
-        return _attempt(film, course, moving, size, order=1, tolerance=tolerance)
+        return _attempt(film, course, moving, size, order=1, tolerance=tolerance, longest=longest)
     now = Known(
         time=time,
         place=instant.place,
@@ -250,7 +259,7 @@ def _attempt(
         held=held(film, instant),
     )
     past = (now, *moving.past[:3])
-    return Moving(instant=instant, past=past, step=size, order=order, error=_error(past, course, order))
+    return Moving(instant=instant, past=past, step=size, order=order, error=_error(past, course, order, longest))
 
 
 def differences(past: tuple[Known, ...], size: float, order: int) -> tuple[float, tuple[Array, Array, Array]]:
@@ -302,11 +311,11 @@ def _guess(film: MovingFilm, course: Course, moving: Moving, given: Array, size:
     return np.asarray(place + 0.5 / max(film.closing(place, moved), 0.5) * moved)
 
 
-def _error(past: tuple[Known, ...], course: Course, order: int) -> float:
-    """The estimated error of the velocities of a step over their scale, from a difference of the next order.
+def _error(past: tuple[Known, ...], course: Course, order: int, longest: float) -> float:
+    """The estimated error of the coordinates of a step over their motion in the longest one.
 
-    The local error of the coordinates is Δt²/2 q̈ of backward Euler, and Δt² (Δt + Δt₋)²/(6 (2Δt + Δt₋)) d³q/dt³ of the
-    two-step formula with the step Δt₋ before; that of the velocities is as many times larger as the formula divides by.
+    It is Δt²/2 q̈ of backward Euler, and Δt² (Δt + Δt₋)²/(6 (2Δt + Δt₋)) d³q/dt³ of the two-step formula with the step
+    Δt₋ before, from a difference of the next order.
     """
     if len(past) < order + 2:
         return 0.0
@@ -315,10 +324,5 @@ def _error(past: tuple[Known, ...], course: Course, order: int) -> float:
     for level in range(1, order + 2):
         table = [(table[n] - table[n + 1]) / (times[n] - times[n + level]) for n in range(len(table) - 1)]
     size, before = times[0] - times[1], times[1] - times[2]
-    if order == 1:
-        local = size**2 * table[0]
-        rate = 1 / size
-    else:
-        local = (size * (size + before)) ** 2 / (2 * size + before) * table[0]
-        rate = (2 * size + before) / (size * (size + before))
-    return float((np.abs(rate * local) / course.velocity_scale).max())
+    local = size**2 if order == 1 else (size * (size + before)) ** 2 / (2 * size + before)
+    return float((np.abs(local * table[0]) / (course.velocity_scale * longest)).max())

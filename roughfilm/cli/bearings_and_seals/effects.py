@@ -14,8 +14,10 @@ from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.writing.kinds import JSON, PAGE
 from roughfilm.interface.curves import checked_cells
 from roughfilm.ladder import models
+from roughfilm.rom.advice.advise import DEFAULT_TOLERANCE
 from roughfilm.rom.bearing.effects.analysis import EffectAnalysis, analyse_effects
 from roughfilm.rom.bearing.effects.contributions import EffectStudy
+from roughfilm.rom.bearing.kind import KIND
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
@@ -57,13 +59,14 @@ def command(
         raise InputError(
             f"{scene}: kind: got {bearing.kind!r}; effects are those of a bearing (scripts/examples/scenes/pad.toml)"
         )
-    cells = checked_cells(bearing, resolution)
+    cells, in_time = checked_cells(bearing, resolution), KIND.in_time(bearing, DEFAULT_TOLERANCE)
+    bearing = KIND.steady(bearing)
     make_directory(out)
     refuse_unwritable((page, PAGE), (out / "effects.json", JSON))
     with alone(page, "analysis"):
         with progress_bar(1.0) as advance:
             analysis = analyse_effects(bearing, cells, models(), advance)
-        entries = _entries(analysis)
+        entries = _entries(analysis) | ({} if in_time is None else dict(in_time.entries))
         entries["numerics"] = {
             "resolution": cells,
             "residual": max(study.residual for study in _studies(analysis)),
@@ -75,7 +78,8 @@ def command(
 
         write_page(analysis, entries, out)
     summary = written(_in_words(analysis), page, out / "effects.json")
-    show_result({**entries, "report": str(page)}, _shown(analysis), as_json=as_json, summary=summary)
+    shown = [*([] if in_time is None else in_time.lines), *_shown(analysis)]
+    show_result({**entries, "report": str(page)}, shown, as_json=as_json, summary=summary)
 
 
 def _studies(analysis: EffectAnalysis) -> list[EffectStudy]:

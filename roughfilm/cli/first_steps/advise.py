@@ -54,11 +54,13 @@ def command(
     compared, fraction = wanted(read, quantity), tolerance_of(within)
     with progress_bar(1.0) as advance:
         advice = advise(read, models(read.kind), quantity=compared, within=fraction, progress=advance)
+    judged = kind_of_scene(read).steady(read)
     if as_json:
-        note = window_note(read, fraction)
-        print_json({**entries_of(advice), "composition": list(kind_of_scene(read).composed(read)), "window": note})
+        note, in_time = window_note(read, fraction), {} if advice.in_time is None else advice.in_time.entries
+        lines = list(kind_of_scene(judged).composed(judged))
+        print_json({**entries_of(advice), "composition": lines, "window": note, **in_time})
     else:
-        print_all(_shown(read, advice))
+        print_all(_shown(judged, advice))
     if advice.chosen is None:
         raise typer.Exit(NOT_CONVERGED)
 
@@ -79,6 +81,8 @@ def tolerance_of(text: str) -> float:
 def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     """The advice for people."""
     kind = kind_of_scene(scene)
+    if advice.in_time is not None:
+        yield from advice.in_time.lines
     judged = [one for one in advice.considered if one.resolution is not None]
     table = table_of(
         ("model", "resolution", "CPU s", "error", ""),

@@ -1,6 +1,7 @@
 """The ``roughfilm`` command: one subcommand a file, imported when it is called."""
 
 import importlib
+import os
 import sys
 from typing import Annotated, Any
 
@@ -22,6 +23,8 @@ GROUPS = {
     },
     "Bearings and seals": {
         "stribeck": "Sweep speed and load of a bearing, smooth or with walls that may touch, to Stribeck curves.",
+        "dynamics": "Sweep speed and load of a bearing: stiffness, damping and the stability of its rotor.",
+        "march": "March a bearing in time: film, pressure, load, friction and flows as loads and speeds change.",
         "effects": "Switch the effects of a bearing on one at a time: what each adds to load, friction and flow, and "
         "to the film.",
         "leakage": "Compute contact, gap and leakage of a seal, directly and averaged, from the first touch until it "
@@ -68,6 +71,9 @@ WITH_OPENFOAM = frozenset(
 )
 """The commands that take the option ``--openfoam``."""
 
+ONE_THREAD_OF_BLAS = frozenset({"march"})
+"""Commands that solve many small systems, which threads of the BLAS only slow down."""
+
 COMMANDS = {name: line for group in GROUPS.values() for name, line in group.items()}
 
 
@@ -84,6 +90,8 @@ class _Commands(TyperGroup):
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
         name, _, rest = super().resolve_command(ctx, args)
         sweep_machine()
+        if name in ONE_THREAD_OF_BLAS:
+            os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read when NumPy is imported, which is later
         module = importlib.import_module(MODULES[str(name)])
         alone = typer.Typer(add_completion=False, rich_markup_mode=HELP_MODE)
         function = naming_openfoam(module.command) if name in WITH_OPENFOAM else module.command

@@ -22,6 +22,7 @@ from roughfilm.stability.form import BAD, GOOD, MEANING, MapOutcome, StabilityMa
 from roughfilm.stability.gap import GAP
 from roughfilm.stability.laws import MIXED, SEAL
 from roughfilm.stability.load import LOAD
+from roughfilm.stability.motion import MOTION
 from roughfilm.stability.pocket import DIMPLES, PADS, POCKET
 from roughfilm.stability.windows import WINDOWS
 from roughfilm.terminal.console import NUMERICS, AsJson, Jobs, OutDirectory, make_directory, print_json, process_count
@@ -34,7 +35,7 @@ EXAMPLES = (
 )
 
 FAMILIES: dict[str, StabilityMap] = {
-    one.name: one for one in (POCKET, DIMPLES, PADS, CAVITATION, CONTACT, CELL, SEAL, MIXED, LOAD, GAP, WINDOWS)
+    one.name: one for one in (POCKET, DIMPLES, PADS, CAVITATION, CONTACT, CELL, SEAL, MIXED, LOAD, MOTION, GAP, WINDOWS)
 }
 
 MAX_BYTES = 100_000_000

@@ -11,7 +11,10 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import MAX_PIXELS, new_figure, svg
 from roughfilm.figures.differences import Differences, differences, on_points
+from roughfilm.figures.shafts.angles import LEAST_COLOUR, Along, along_of
+from roughfilm.figures.shafts.around import around
 from roughfilm.figures.view import Plot, Style, View, groups_by
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.result import Result
 from roughfilm.words.scales import Scale, scales_of
@@ -40,42 +43,45 @@ def along(scene: Bearing, results: Mapping[str, Result], reference: str) -> str:
     Under a load each model has a film of its own.
     """
     figure, (film, pressure, density) = new_figure((9, 6.8), 3, 1, sharex=True, height_ratios=(1, 2.2, 1.5))
-    (factor, label), scales = _place(results), scales_of([results[reference]])
+    axis, scales = along_of(scene, results), scales_of([results[reference]])
     of_film, of_pressure = scales("film_min", "m"), scales("pressure_max", "Pa")
     for number, (name, result) in enumerate(results.items()):
         style = STYLES.get(name, Style())
         row = int(np.argmax(result.fields["pressure"].values.max(axis=0)))
-        x, h, p, theta = (
+        place, h, p, theta = (
             result.fields[field].values[:, row] for field in ("x", "film_thickness", "pressure", "density_ratio")
         )
+        x = axis(place)
         if scene.load is not None:
-            film.plot(x * factor, h / of_film.factor, linestyle=style.line, color=style.colour)
+            film.plot(x, axis.lobes_only(x, h / of_film.factor), linestyle=style.line, color=style.colour)
         elif number == 0:
-            film.fill_between(x * factor, h / of_film.factor, color="#9ecae1", linewidth=0)
+            film.fill_between(x, axis.lobes_only(x, h / of_film.factor), color="#9ecae1", linewidth=0)
         if name == "direct":
-            film.plot(x * factor, h / of_film.factor, color=style.colour, linewidth=0.6)
+            film.plot(x, axis.lobes_only(x, h / of_film.factor), color=style.colour, linewidth=0.6)
         thin = x.size > 2 * MAX_PIXELS and name == "direct"
         look = {"linestyle": style.line, "color": style.colour, "linewidth": 1.0 if thin else 1.8}
-        pressure.plot(x * factor, p / of_pressure.factor, label=name, **look)
-        density.plot(x * factor, theta, **look)
+        pressure.plot(x, p / of_pressure.factor, label=name, **look)
+        density.plot(x, theta, **look)
     lowest = scene.lubricant.cavitation_pressure / of_pressure.factor
     pressure.axhline(lowest, color="black", linewidth=0.8, linestyle=(0, (1, 2)), label="cavitation pressure")
     film.set(ylim=(0, None), ylabel=of_film.label("film thickness"))
     pressure.set_ylabel(of_pressure.label("pressure\nabove ambient"))
-    density.set(ylabel="relative density θ\n(filled fraction)", xlabel=label)
+    density.set(ylabel="relative density θ\n(filled fraction)", xlabel=axis.label)
+    for axes in (film, pressure, density):
+        axis.mark(axes, named=axes is pressure)
     figure.legend(loc="outside upper center", ncols=4, fontsize=8)
     figure.align_ylabels()
     return svg(figure)
 
 
-def over(results: Mapping[str, Result], reference: str) -> Plot:
+def over(scene: Bearing, results: Mapping[str, Result], reference: str) -> Plot:
     """Pressure and density over the film by the reference model, and the differences of the others that keep its width.
 
     Differences in one quantity have the same colours.
     """
     planes = {name: result for name, result in results.items() if result.fields["pressure"].values.shape[1] > 1}
     shown = reference if reference in planes else [*planes][-1]
-    result, (factor, label) = planes[shown], _place(planes)
+    result, axis = planes[shown], along_of(scene, planes)
     place = [result.fields["x"].values[:, 0], result.fields["y"].values[0]]
     scales = scales_of([result])
     fields = {
@@ -92,7 +98,7 @@ def over(results: Mapping[str, Result], reference: str) -> Plot:
     rows = 1 if len(others) == 1 else len(unequal) * -(-len(others) // columns)
     figure = Figure(figsize=(10, 3.4 + 2.1 * rows), layout=ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.08))
     spaces = figure.add_gridspec(2 if rows else 1, 1, height_ratios=(3.4, 2.1 * rows)[: 2 if rows else 1])
-    x, y = place[0] * factor, place[1] * 1e3
+    x, y = axis(place[0]), place[1] * 1e3
     upper: Any = spaces[0].subgridspec(1, 2).subplots()
     for axes, (name, (title, scale, _, colours)) in zip(upper, fields.items(), strict=True):
         values = result.fields[name].values / scale.factor
@@ -100,11 +106,12 @@ def over(results: Mapping[str, Result], reference: str) -> Plot:
         limits = {"vmin": min(values.min(), 0.9), "vmax": max(values.max(), 1.0)} if name == "density_ratio" else {}
         image = _map(axes, x, y, values, cmap=colours, **limits)
         axes.set_title(f"{title} by {shown}", fontsize=9)
-        axes.set(xlabel=label, ylabel="across, mm")
+        axes.set(xlabel=axis.label, ylabel="across, mm")
+        _mark(axes, axis, result)
         figure.colorbar(image, ax=axes, label=scale.label(title))
     if rows:
         panels = spaces[1].subgridspec(rows, columns).subplots(squeeze=False, sharex=True, sharey=True)
-        _difference_maps(panels, unequal, fields, others, (x, y), label)
+        _difference_maps(panels, unequal, fields, others, (x, y), axis)
     return Plot(svg=svg(figure), words=tuple(words for one in found.values() for words in one.words))
 
 
@@ -114,7 +121,7 @@ def _difference_maps(
     fields: Mapping[str, Any],
     others: Sequence[str],
     place: tuple[Array, Array],
-    label: str,
+    along: Along,
 ) -> None:
     """Draw the differences of the other models: pressure above density, or beside it if there is one other model."""
     for axes in panels.flat:
@@ -127,8 +134,9 @@ def _difference_maps(
             axes.set_axis_on()
             image = _map(axes, *place, one.drawn[model], **one.colours)
             axes.set_title(model, fontsize=9)
-            axes.set_xlabel(label, fontsize=8)
+            axes.set_xlabel(along.label, fontsize=8)
             axes.set_ylabel("across, mm", fontsize=8)
+            along.mark(axes, covered=True)
             axes.label_outer()
         title, scale = fields[name][:2]
         axes.figure.colorbar(image, ax=line, label=scale.label(f"difference\nin {title}"), shrink=0.95)
@@ -148,17 +156,22 @@ def _on(result: Result, field: str, place: Sequence[Array]) -> Array:
     return on_points(own, result.fields[field].values, place)
 
 
-def _place(results: Mapping[str, Result]) -> tuple[float, str]:
-    """The factor of x in figures, and its label."""
-    angle = next(iter(results.values())).fields["x"].unit == "rad"
-    return (np.degrees(1.0), "angle, degrees") if angle else (1e3, "position along the sliding, mm")
+def _mark(axes: Axes, along: Along, result: Result) -> None:
+    """Mark the gaps between lobes, the direction of the load and the place of the least film on a map."""
+    if not along.around:
+        return
+    along.mark(axes, covered=True)
+    least = [result.quantities[name].value for name in ("film_min_x", "film_min_y")]
+    axes.plot(along(np.array(least[:1])), [1e3 * least[1]], "x", color=LEAST_COLOUR, markersize=7, zorder=4)
 
 
 def plots(scene: Bearing, results: Mapping[str, Result], reference: str) -> dict[str, Plot]:
     """The figures of a comparison; maps only where a model keeps the width."""
     plane = any(result.fields["pressure"].values.shape[1] > 1 for result in results.values())
-    lines = {"along": Plot(svg=along(scene, results, reference))}
-    return lines | ({"over": over(results, reference)} if plane else {})
+    drawn = {"along": Plot(svg=along(scene, results, reference))}
+    if isinstance(scene.geometry, Lobes):
+        drawn["around"] = Plot(svg=around(scene, results, reference, STYLES))
+    return drawn | ({"over": over(scene, results, reference)} if plane else {})
 
 
 VIEW = View(

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.bearing.geometry.journal import Journal
+from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.result import Result
@@ -80,7 +81,7 @@ def bearing(scene: Bearing, result: Result) -> Iterator[str]:
         yield f"the greatest pressure at a node is {pressure.max():.6g} Pa, reported {value['pressure_max']:.6g}"
     if field["film_thickness"].min() <= 0 and result.model != "mixed":
         yield "the film has no thickness"
-    for name in ("film_start", "rupture", "cavitated_fraction"):
+    for name in value.keys() & {"film_start", "rupture", "cavitated_fraction"}:
         if not -ROUND_OFF <= value[name] <= 1 + ROUND_OFF:
             yield f"{name} is {value[name]:.6g}, not a fraction"
     yield from _loads(scene, value, field)
@@ -104,10 +105,12 @@ def _most_above(pressure: Array) -> float:
 
 
 def _loads(scene: Bearing, value: dict[str, float], field: dict[str, Array]) -> Iterator[str]:
-    """The loads that are not the sum of the pressures on the control volumes, in words; vectors add up in a journal."""
+    """The loads that are not the sum of the pressures on the control volumes, in words; on a shaft vectors add up."""
     x, y = field["x"][:, 0], field["y"][0]
     across = (np.ones(1) if y.size == 1 else control_lengths(y, None)) * (y if isinstance(scene.geometry, Ring) else 1)
     turn = scene.geometry.turn if isinstance(scene.geometry, Ring) and scene.geometry.endless else None
+    if isinstance(scene.geometry, Lobes) and not scene.geometry.single:
+        turn = scene.geometry.length
     areas = control_lengths(x, turn)[:, None] * across
     pressed = areas * field["contact_pressure"] if "contact_pressure" in field else np.zeros(areas.shape)
     forces = {"load_per_width": areas * field["pressure"] + pressed}
@@ -116,7 +119,7 @@ def _loads(scene: Bearing, value: dict[str, float], field: dict[str, Array]) -> 
     width = 1.0 if y.size == 1 else scene.geometry.width or 1.0
     for name, force in forces.items():
         total = float(force.sum())
-        if isinstance(scene.geometry, Journal):
+        if isinstance(scene.geometry, Shaft):
             angle = (x / scene.geometry.radius)[:, None]
             total = float(np.hypot((force * np.cos(angle)).sum(), (force * np.sin(angle)).sum()))
         if abs(total / width - value[name]) > 1e-6 * float(np.abs(force).sum()) / width:

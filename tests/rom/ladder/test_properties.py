@@ -70,7 +70,14 @@ def in_time(seconds):
 
 def solved(model, scene):
     """An answer, or None where one of our errors says in one line why there is none."""
-    fits = model.applies(scene)
+    try:
+        fits = model.applies(scene)
+    except OURS as error:  # no film carries the load
+        lines = str(error).splitlines()
+        fits = None
+    if fits is None:
+        assert len(lines) == 1, lines
+        return None
     assert fits.reason
     at = resolution(model, scene)
     cost = model.cost(scene, at or model.resolution_of(scene))
@@ -243,7 +250,7 @@ def test_sides_that_change_places_change_nothing_where_the_film_is_even_across(e
     """A film without roughness, whose thickness is the same from side to side."""
     entries = {key: one for key, one in entries.items() if key not in ("roughness", "asperities")}
     scene = valid(entries)
-    if scene.wide or scene.geometry.shape in ("given", "sector", "washer"):
+    if scene.wide or scene.geometry.shape in ("given", "sector", "washer", "lobes"):
         reject()
     sides = {"low": "2 kPa", "high": "50 kPa"}
     swapped = {"low": sides["high"], "high": sides["low"]}

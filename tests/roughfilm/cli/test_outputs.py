@@ -87,6 +87,7 @@ def test_a_file_of_another_kind_is_kept(place, words):
         (["compare", "p.toml"], "results/reynolds.h5"),
         (["batch", STUDIES / "pocket.toml"], "table.csv"),
         (["batch", STUDIES / "pocket.toml"], "table.h5"),
+        (["dynamics", SCENES / "grooved_journal.toml"], "dynamics.h5"),
         (["effects", SCENES / "pad.toml"], "report.html"),
         (["leakage", SCENES / "seal.toml"], "table.csv"),
         (["stribeck", SCENES / "rough_washer.toml"], "stribeck.h5"),

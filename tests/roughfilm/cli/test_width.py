@@ -33,6 +33,7 @@ RUNS = {
     "solve": ["solve pocket.toml", "solve pocket.toml --model inertial_reynolds"],
     "compare": ["compare contact.toml --out compared"],
     "stribeck": [f"stribeck rough_washer.toml {COARSE} --loads 1MPa --speeds 20rpm,500rpm --out washer"],
+    "dynamics": ["dynamics grooved_journal.toml --resolution 32 --speeds 1000rpm,3000rpm --out rotor"],
     "effects": ["effects parabolic_slider.toml --resolution 64 --out effects"],
     "leakage": ["leakage seal.toml --loads 1kPa,20kPa --out leakage"],
     "surface": ["surface rough.toml --out cell.h5"],

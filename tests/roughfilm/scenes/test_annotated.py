@@ -95,3 +95,10 @@ def test_a_cell_in_plan_shows_the_keys_of_every_shape_of_a_dimple():
     assert {name for _, name in shapes} == {*SHAPES}
     assert text.count("[[geometry.dimples]]") == len(SHAPES)
     assert '# width = "0.3 mm"' in text  # that of the dimple above, so that the comment may be written
+
+
+def test_a_bearing_shows_the_forms_of_a_supply():
+    fed, others = annotated_scene("bearing", "hydrostatic"), annotated_scene("bearing", "linear")
+    assert re.findall(r"^(# )?\[\[supply\]\]", fed, flags=re.MULTILINE) == ["", "# ", "# "]
+    assert others.count("# [[supply]]") == 3
+    assert '# flow = "1 l/min"' in others

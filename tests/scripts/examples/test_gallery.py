@@ -306,6 +306,15 @@ def test_the_best_step_is_that_of_rayleigh() -> None:
     assert values["best_on_map"] == (pytest.approx(1.866, abs=0.15), pytest.approx(0.718, abs=0.034))
 
 
+def test_a_lemon_bore_whirls_at_a_far_higher_speed_than_plain_halves() -> None:
+    values = values_of("bearings/rotor_whirl")
+    assert values["onset"]["plain halves"] == pytest.approx(4461, rel=5e-3)
+    assert values["onset"]["lemon bore"] == pytest.approx(16390, rel=0.01)
+    masses = {name: [p["critical_mass"].value for p in curve.points] for name, curve in values["curves"].items()}
+    assert (np.array(masses["lemon bore"]) > 2 * np.array(masses["plain halves"])).all()
+    assert values["curves"]["plain halves"].points[-1]["whirl_ratio"].value == pytest.approx(0.5, abs=0.002)
+
+
 def test_sommerfeld_numbers_agree_with_raimondi_and_boyd_and_with_ocvirk() -> None:
     values = values_of("bearings/sommerfeld_number")
     assert values["largest_difference"] < 0.0145
@@ -318,6 +327,14 @@ def test_the_pressure_of_a_journal_adds_up_to_its_load() -> None:
     unit = 0.05 * 0.05 * 0.02 * 80 / 1e-6  # B D η ω/ψ², N
     assert values["load"].value / unit == pytest.approx(1.3146, rel=3e-3)  # Butenschön 1976, as is the angle
     assert values["attitude"] == pytest.approx(50.536, abs=0.1)
+
+
+def test_a_hydrostatic_pad_has_the_stiffness_of_its_restrictor() -> None:
+    values = values_of("bearings/hydrostatic_pad")
+    for name, tolerance in (("capillary", 0.005), ("orifice", 0.015)):
+        inner = slice(1, -1)  # the slopes at both ends are differences to one side
+        assert values["stiffness"][name][inner] == pytest.approx(values["expected"][name][inner], rel=tolerance)
+    assert values["stiffness"]["orifice"][8] > 1.1 * values["stiffness"]["capillary"][8]
 
 
 def test_films_under_load_lie_on_the_curve_of_butenschoen() -> None:
@@ -399,6 +416,12 @@ def test_many_waves_approach_their_average_in_inverse_proportion() -> None:
     assert values["order"] == pytest.approx(1, abs=0.02)
     assert values["difference"][[0, 3]] == pytest.approx([0.10, 0.013], abs=1e-3)
     assert values["gain"] == pytest.approx(0.037, abs=5e-4)
+
+
+def test_a_load_that_turns_at_half_of_the_speed_leaves_a_thinner_film() -> None:
+    least = values_of("bearings/changing_load")["least"]
+    assert 1e6 * least["standing"] == pytest.approx(12.97, abs=0.1)
+    assert 1e6 * least["half speed"] == pytest.approx(3.8, abs=0.2)
 
 
 def test_the_load_of_a_washer_moves_from_asperities_to_the_film() -> None:

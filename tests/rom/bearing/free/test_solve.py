@@ -15,6 +15,7 @@ GROOVED = BORE | {"lobes": 2, "arc": "160 deg"}
 
 def solved(geometry, *, cells=64, model="reynolds_cavitating", **tables):
     tables = {"lubricant": OIL, "motion": SPEED, "load": {"force": "5 kN"}} | tables
+    tables = {name: table for name, table in tables.items() if table is not None}
     scene = read_scene({"name": "lobes", "kind": "bearing", "geometry": geometry, **tables})
     return find("bearing", model).solve(scene, Request(resolution=cells))
 
@@ -60,6 +61,17 @@ def test_a_shaft_that_turns_back_is_the_mirror_image():
     for name in ("load", "film_min", "friction", "pressure_max", "side_leakage", "eccentricity_y"):
         assert back[name].value == pytest.approx(forth[name].value, rel=1e-7), name
     assert back["eccentricity_x"].value == pytest.approx(-forth["eccentricity_x"].value, rel=1e-7)
+
+
+@pytest.mark.parametrize("pads", [{}, {"pivot": 0.5, "tilts": ["0.2 mrad", "0.1 mrad"]}])
+def test_a_given_shaft_that_turns_back_is_the_mirror_image(pads):
+    """Mirrored in the vertical plane, in which both pads, below and above, are their own images."""
+    tables = {"cells": 32, "load": None}
+    forth = solved(GROOVED | pads | {"eccentricity": [0.3, -0.4]}, **tables)
+    turned = {"tilts": ["-0.2 mrad", "-0.1 mrad"]} if pads else {}
+    back = solved(GROOVED | pads | turned | {"eccentricity": [-0.3, -0.4]}, motion={"speed": "-3000 rpm"}, **tables)
+    for name in ("load", "film_min", "friction", "pressure_max", "side_leakage", "attitude_angle"):
+        assert back[name].value == pytest.approx(forth[name].value, rel=1e-7), name
 
 
 def test_what_enters_from_the_gaps_leaves_into_them_or_through_the_sides():

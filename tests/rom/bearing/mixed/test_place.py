@@ -43,7 +43,7 @@ def test_points_are_those_of_the_model_from_rest_to_a_full_film(tips, curve):
     for name in ("contact_share", "friction_coefficient", "pressure_max", "contact_area", "contact_load"):
         assert getattr(point, name) == pytest.approx(model[name].value, rel=1e-6), name
     assert point.separation == pytest.approx(model["film_min"].value, rel=1e-4)
-    assert max(one.balance for one in curve.points) < 1e-8
+    assert max(one.balance for one in curve.points) < 1e-6
 
 
 def test_the_uncertainty_covers_a_finer_grid(tips, curve):
@@ -86,6 +86,6 @@ def test_without_asperities_friction_and_film_scale_with_the_number_of_hersey():
     by_speed = {point.speed: point for point in other.points}
     for point in one.points[:3:2]:
         same = by_speed[5 * point.speed]
-        assert same.separation == pytest.approx(point.separation, rel=1e-6)
-        assert same.friction_coefficient == pytest.approx(point.friction_coefficient, rel=1e-6)
+        assert same.separation == pytest.approx(point.separation, rel=1e-5)
+        assert same.friction_coefficient == pytest.approx(point.friction_coefficient, rel=1e-5)
         assert point.contact_share == same.contact_share == 0

@@ -179,3 +179,26 @@ def test_a_film_that_takes_in_more_than_its_restrictor_passes_is_refused():
     hole = {"kind": "hole", "x": "45 mm", "diameter": "4 mm", "flow": "1e-12 m^3/s"}
     with pytest.raises(ConvergenceError, match="takes in more than the restrictor passes"):
         solved(geometry, [hole], model="reynolds_cavitating", motion={"speed": "-5 m/s"}, cells=24)
+
+
+RECESS = {"kind": "pocket", "x": "30 mm", "length": "20 mm", "extent": "20 mm", "depth": "1 mm", "pressure": "2 MPa"}
+
+
+def test_a_pad_about_a_pivot_over_its_recess_floats_parallel_at_rest():
+    """The moments of the recess and of the load about the pivot vanish, so that it is the pad without slopes."""
+    square = {"length": "60 mm", "width": "60 mm"}
+    tables = {"load": {"force": "1 kN"}, "cells": 48}
+    pivoted = solved({"shape": "pivoted", "pivot": 0.5, **square}, [RECESS | CAPILLARY], **tables)
+    parallel = solved({"shape": "parallel", **square}, [RECESS | CAPILLARY], **tables)
+    for name in ("film_min", "supply_flow", "supply_1_pressure"):
+        bar = pivoted[name].uncertainty + parallel[name].uncertainty
+        assert abs(pivoted[name].value - parallel[name].value) <= bar, name
+
+
+def test_a_pad_that_approaches_displaces_what_is_not_supplied():
+    geometry = {"shape": "linear", "length": "60 mm", "width": "60 mm", "film": "30 um", "rise": "10 um"}
+    motion = {"speed": "1 m/s", "approach": "0.5 mm/s"}
+    result = solved(geometry, [RECESS | CAPILLARY], model="reynolds_cavitating", motion=motion, cells=24)
+    entering = sum(result[name].value for name in ("inlet_flow", "supply_flow", "displaced_flow"))
+    leaving = result["outlet_flow"].value + result["side_leakage"].value
+    assert entering == pytest.approx(leaving, rel=1e-9)

@@ -87,7 +87,6 @@ def test_fronts_move_with_second_order_in_time():
         ours = edges(800, count)
         late = ours[ours[:, 0] > 0.42]
         errors.append(np.sqrt(np.mean([(edge - exact(time)) ** 2 for time, edge in late])))
-    print(errors)
     assert order(1 / steps, errors) == pytest.approx(2.0, abs=0.35)
 
 
@@ -198,7 +197,6 @@ def sunk(end, **numbers):
 def test_a_plate_without_mass_sinks_as_in_closed_form_with_second_order():
     end, steps = 0.3, np.array([20, 40, 80])
     errors = [sunk(end, largest_step=end / n, error=None)[-1].now.place[0] / sinking(end, 40) - 1 for n in steps]
-    print(errors)
     assert order(1 / steps, errors) == pytest.approx(2.0, abs=0.2)
     assert abs(errors[-1]) < 1e-3
 
@@ -206,7 +204,6 @@ def test_a_plate_without_mass_sinks_as_in_closed_form_with_second_order():
 @pytest.mark.parametrize("error", [1e-2, 1e-3])
 def test_steps_of_a_sinking_plate_meet_their_error(error):
     film = sunk(0.3, largest_step=0.1, error=error)
-    print(len(film), [moving.now.place[0] / sinking(moving.now.time, 40) - 1 for moving in film][-1])
     worst = max(abs(moving.now.place[0] / sinking(moving.now.time, 40) - 1) for moving in film)
     assert worst < error
     assert film[-1].now.time == pytest.approx(0.3, rel=1e-12)
@@ -230,7 +227,6 @@ def test_a_mass_on_a_film_swings_as_its_stiffness_and_damping_let_it():
     for moving in march(film, load, begun(film, start), 2 * np.pi / rate, largest_step=0.02 / rate, error=1e-3):
         exact = expm(system * moving.now.time) @ np.append(first, [0.0, 0.0])
         worst = max(worst, float(np.abs(moving.now.place - at.place - exact[:2]).max()) / first[0])
-    print(worst, np.linalg.eigvals(system) / rate)
     assert worst < 3e-3
 
 
@@ -247,7 +243,6 @@ def test_pressures_of_a_compressible_film_at_rest_decay_as_heat_does():
     for count in steps:
         *_, last = march(film, rest, begun(film, start), 1 / rate, largest_step=1 / rate / count, error=None)
         errors.append(last.instant.state.pressure.max() / (first * np.exp(-1.0)) - 1)
-    print(errors)
     assert abs(errors[-1]) < 2e-3
     assert order(1 / steps, errors) > 1.6
 

@@ -1,0 +1,237 @@
+"""Files of stiffness and damping over speed and load: HDF5 with a digest of the input, CSV, and tables for ROSS."""
+
+import json
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from roughfilm.contact.foundation.checked_hdf5 import open_if_of, write_checked
+from roughfilm.contact.foundation.files import replacing
+from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.reading.hdf5_content import Numbers
+from roughfilm.contact.foundation.writing.kinds import beginning_with
+from roughfilm.rom.bearing.dynamics.point import ENTRIES, UNITS, DynamicPoint
+from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve, dynamics
+from roughfilm.rom.bearing.geometry.journal import Shaft
+from roughfilm.rom.bearing.mixed.curves import curve_inputs
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.homogenization.table.resume import regular_saves
+from roughfilm.rom.ladder.model import Progress
+from roughfilm.rom.studies.table import table_beginning
+
+SCHEMA = 1
+MARK = b"roughfilm dynamics, HDF5 behind 512 bytes, sha256 "
+KIND = "table of stiffness and damping"
+REMEDY = "remove it or choose another place"
+
+OPERATION = {
+    "pressure": "Pa",
+    "load": "N",
+    "speed": "m/s",
+    "rotation": "rad/s",
+    "residual": "1",
+    "cpu_s": "s",
+}
+"""Names and units of the numbers of a point that are no quantities."""
+
+ROSS_MARK = b"# stiffness and damping of a bearing, from roughfilm, for ross.BearingElement.load\n"
+"""First line of a table for ROSS."""
+
+ROSS_COLUMNS = {"k": "stiffness", "c": "damping"}
+ROWS = ("rows",)
+
+
+def point_inputs(scene: Bearing, resolution: int, frequency_ratio: float) -> Inputs:
+    """The inputs of a file: all entries on which its points depend."""
+    inputs = curve_inputs(
+        scene,
+        None,
+        resolution,
+        frequency_ratio=frequency_ratio,
+        direction=math.copysign(1.0, scene.motion.speed),
+        load_angle=None if scene.load is None else scene.load.angle,
+    )
+    settings = {name: entry for name, entry in inputs.settings.items() if not name.startswith("body.")}
+    return Inputs(heights=inputs.heights, spacing=inputs.spacing, settings=settings)
+
+
+def save_points(path: Path, inputs: Inputs, points: Sequence[DynamicPoint]) -> None:
+    """Write points in one step, in order of load and speed.
+
+    ``points/`` has a column for each number of the operation, ``numbers/`` and ``uncertainty/`` one for each quantity;
+    numbers may be infinite or NaN.
+
+    Raises
+    ------
+    InputError
+        If ``path`` cannot be written.
+    """
+    ordered = sorted(points, key=lambda point: (point.pressure, point.speed))
+
+    def fill(file: h5py.File) -> None:
+        file.attrs["schema"] = SCHEMA
+        file.attrs["digest"] = inputs.digest
+        file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+        for name, unit in OPERATION.items():
+            _write(file, f"points/{name}", [getattr(point, name) for point in ordered], unit)
+        for name in ordered[0].numbers if ordered else ():
+            _write(file, f"numbers/{name}", [point.numbers[name] for point in ordered], UNITS[name])
+            _write(file, f"uncertainty/{name}", [point.uncertainty[name] for point in ordered], UNITS[name])
+
+    write_checked(path, MARK, fill)
+
+
+def _write(file: h5py.File, name: str, column: Sequence[float], unit: str) -> None:
+    file.create_dataset(name, data=np.array(column, dtype=float)).attrs["unit"] = unit
+
+
+def known_points(path: Path, inputs: Inputs) -> tuple[DynamicPoint, ...]:
+    """The points of a file for these inputs; none if there is no file, or an empty one.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is damaged, or holds other points or something else.
+    """
+    with open_if_of(inputs, path, MARK, SCHEMA, kind=KIND, remedy=REMEDY) as content:
+        if content is None:
+            return ()
+        stored = set(content.names("numbers"))
+        names = [name for name in UNITS if name in stored]
+        wanted = {f"points/{name}": Numbers(shape=ROWS) for name in OPERATION}
+        for group in ("numbers", "uncertainty"):
+            wanted |= {f"{group}/{name}": Numbers(shape=ROWS, missing=True, infinite=True) for name in names}
+        columns = content.take(wanted)
+    return tuple(
+        DynamicPoint(
+            **{name: columns[f"points/{name}"][row].item() for name in OPERATION},
+            numbers={name: columns[f"numbers/{name}"][row].item() for name in names},
+            uncertainty={name: columns[f"uncertainty/{name}"][row].item() for name in names},
+        )
+        for row in range(len(columns["points/speed"]))
+    )
+
+
+def resumed_dynamics(
+    scene: Bearing,
+    speeds: Sequence[float],
+    pressures: Sequence[float],
+    out: Path,
+    *,
+    resolution: int,
+    frequency_ratio: float,
+    mass: float | None,
+    progress: Progress,
+) -> tuple[tuple[DynamicCurve, ...], int]:
+    """The points of a scene, and the number of them that were in the file.
+
+    Parameters
+    ----------
+    speeds, pressures : sliding speeds, m/s, and loads over the nominal area, Pa.
+    out : path of the file, which holds all finished points even if the sweep is stopped.
+
+    Other parameters and errors are those of :func:`roughfilm.rom.bearing.dynamics.sweep.dynamics`, and an InputError if
+    the file cannot be read or written, is damaged, or holds other points.
+    """
+    inputs = point_inputs(scene, resolution, frequency_ratio)
+    known = known_points(out, inputs)
+    points = {(point.pressure, point.speed): point for point in known}
+
+    def save() -> None:
+        save_points(out, inputs, tuple(points.values()))
+
+    with regular_saves(save, lambda: f"stopped: {len(points)} points; the same command goes on") as save_regularly:
+
+        def keep(point: DynamicPoint) -> None:
+            points[point.pressure, point.speed] = point
+            save_regularly()
+
+        curves = dynamics(
+            scene,
+            speeds,
+            pressures,
+            resolution=resolution,
+            frequency_ratio=frequency_ratio,
+            mass=mass,
+            known=known,
+            keep=keep,
+            progress=progress,
+        )
+    save()
+    requested = {(point.pressure, point.speed) for curve in curves for point in curve.points}
+    return curves, len(requested & {(point.pressure, point.speed) for point in known})
+
+
+def write_csv(path: Path, scene: Bearing, curves: Sequence[DynamicCurve]) -> None:
+    """Write a row for each point with its uncertainties; the first line has names and units.
+
+    Of a shaft, the stiffness K c/W and the damping B c ω/W stand behind, with the clearance c and the load W. An
+    unknown uncertainty is empty.
+    """
+    points = [point for curve in curves for point in curve.points]
+    operation, names = ("pressure", "load", "speed", "rotation"), tuple(points[0].numbers)
+    dimensionless = dimensionless_of(scene, points[0])
+    heads = [f"{name} ({OPERATION[name]})" for name in operation]
+    heads += [f"{name} ({UNITS[name]})" for name in names] + [f"{name} ± ({UNITS[name]})" for name in names]
+    heads += [f"{name} (1)" for name in dimensionless]
+    lines = [", ".join(heads)]
+    for point in points:
+        row = [getattr(point, name) for name in operation]
+        row += [*point.numbers.values(), *(point.uncertainty[name] for name in names)]
+        row += dimensionless_of(scene, point).values()
+        whole = len(operation) + len(names)
+        texts = [repr(float(number)) for number in row]
+        unknown = [whole <= at < whole + len(names) and not math.isfinite(number) for at, number in enumerate(row)]
+        lines.append(", ".join("" if no else text for no, text in zip(unknown, texts, strict=True)))
+    with replacing(path, table_beginning(heads[0])) as scratch:
+        scratch.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def dimensionless_of(scene: Bearing, point: DynamicPoint) -> dict[str, float]:
+    """K c/W and B c ω/W of a shaft by their names, "dimensionless_stiffness_xx" and so on; empty for other walls.
+
+    Source: Lund and Thomsen 1978 for the scales.
+    """
+    geometry = scene.geometry
+    if not isinstance(geometry, Shaft):
+        return {}
+    scale = geometry.clearance / point.load
+    scales = {"stiffness": scale, "damping": scale * point.rotation}
+    return {
+        f"dimensionless_{name}": scales[matrix] * value
+        for name, value in point.numbers.items()
+        if (matrix := name.partition("_")[0]) in scales
+    }
+
+
+def write_ross(path: Path, scene: Bearing, curve: DynamicCurve) -> None:
+    """Write the coefficients of a shaft under one load as a bearing element that ROSS loads.
+
+    ``ross.BearingElement.load(path)`` gives the element at the node 0: kxx to kyy, N/m, cxx to cyy, N s/m, over the
+    rotational speed ``frequency``, rad/s. In ROSS as here x is horizontal, y vertical, and the shaft turns from x to y;
+    of a shaft that turns from y to x, the axis x is turned round.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+
+    Source: Timbó et al. 2020, doi:10.21105/joss.02120.
+    """
+    points, mirrored = curve.points, -1.0 if scene.motion.speed < 0 else 1.0
+    entries: dict[str, object] = {
+        "n": 0,
+        "tag": scene.name or "bearing",
+        "frequency": [point.rotation for point in points],
+    }
+    for letter, matrix in ROSS_COLUMNS.items():
+        for entry in ENTRIES[2]:
+            sign = 1.0 if entry in ("_xx", "_yy") else mirrored
+            entries[f"{letter}{entry[1:]}"] = [sign * point.numbers[f"{matrix}{entry}"] for point in points]
+    lines = [f"{key} = {json.dumps(value)}" for key, value in entries.items()]
+    text = ROSS_MARK.decode() + "[BearingElement_bearing]\n" + "\n".join(lines) + "\n"
+    with replacing(path, beginning_with("a bearing element for ROSS", ROSS_MARK)) as scratch:
+        scratch.write_text(text, encoding="utf-8")

@@ -1,0 +1,238 @@
+"""The numbers of a film at one time of a march."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.march.course import Duty
+from roughfilm.rom.cavitation.balance import CAVITY, FIXED
+from roughfilm.rom.cavitation.evaluation.filling import density_ratio
+from roughfilm.rom.cavitation.evaluation.friction import drag_of_rows, radius_between
+from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
+from roughfilm.rom.cavitation.motion.coupled import Instant
+from roughfilm.rom.cavitation.motion.march import Moving
+from roughfilm.rom.cavitation.solve import Solution
+
+
+@dataclass(frozen=True, kw_only=True)
+class Observer:
+    """The numbers of every step of a march.
+
+    Attributes
+    ----------
+    duty : what moves the bearing.
+    film : its film.
+    """
+
+    duty: Duty
+    film: FreeFilm
+
+    @cached_property
+    def units(self) -> Mapping[str, str]:
+        """The names of the numbers, in order, with their units."""
+        wall, wide = self.film.wall, self.duty.scene.wide
+        force, flow, volume = ("N/m", "m^2/s", "m^2") if wide else ("N", "m^3/s", "m^3")
+        turning = "N" if wide else "N*m"
+        units = {"time": "s", "speed": "m/s"}
+        for name, turns in zip(wall.names, wall.turns, strict=True):
+            units[name] = "rad" if turns else "1" if name.startswith("eccentricity") else "m"
+        for name, turns in zip(wall.names, wall.turns, strict=True):
+            units[f"{name}_velocity"] = "rad/s" if turns else "m/s"
+        units |= {"film_min": "m", "film_min_x": "m", "film_min_y": "m"}
+        units |= {"pressure_max": "Pa", "pressure_max_x": "m", "pressure_max_y": "m"}
+        for name, turns in zip(self._forces, wall.turns, strict=True):
+            units[f"film_{name}"] = turning if turns else force
+            units[f"load_{name}"] = turning if turns else force
+        units |= {"friction": force, "power_sliding": "W/m" if wide else "W", "power_squeeze": "W/m" if wide else "W"}
+        units["power_loss"] = units["power_sliding"]
+        if self._turns:
+            units["torque"] = turning
+        units |= dict.fromkeys(self._places, flow)
+        units |= {"volume": volume, "volume_rate": flow, "flow_imbalance": "1"}
+        units["cavitated_fraction"] = "1"
+        return units | {
+            "step": "s",
+            "order": "1",
+            "error": "1",
+            "residual": "1",
+            "force_residual": "1",
+            "iterations": "1",
+        }
+
+    @property
+    def _forces(self) -> tuple[str, ...]:
+        """The names of the force on each coordinate."""
+        return tuple(
+            f"moment_{name.removeprefix('tilt_')}"
+            if turns
+            else {"eccentricity_x": "force_x", "eccentricity_y": "force_y"}.get(name, "force")
+            for name, turns in zip(self.film.wall.names, self.film.wall.turns, strict=True)
+        )
+
+    @property
+    def _turns(self) -> bool:
+        return self.duty.scene.turning_radius is not None
+
+    @cached_property
+    def _places(self) -> dict[str, NDArray[np.bool_]]:
+        """The nodes through which lubricant enters, or leaves, by the name of the flow."""
+        film, places = self.film.solved, {}
+        left = np.ones(film.grid.shape, dtype=bool)
+        for number, nodes in enumerate(film.covered, 1):
+            places[f"supply_flow_{number}"] = nodes & left
+            left &= ~nodes
+        if not film.problem.shape.joined[0]:
+            for name, row in (("inlet_flow", 0), ("outlet_flow", -1)):
+                nodes = np.zeros_like(left)
+                nodes[row] = left[row]
+                places[name] = nodes
+                left &= ~nodes
+        if film.problem.ends.sides is not None:
+            for name, column in (("side_flow_low", 0), ("side_flow_high", -1)):
+                nodes = np.zeros_like(left)
+                nodes[:, -1 if film.halved else column] = left[:, -1 if film.halved else column]
+                places[name] = nodes
+        return places
+
+    def row(self, moving: Moving) -> Array:
+        """The numbers of a step, in the order of ``units``."""
+        instant, film, time = moving.instant, self.film.solved, moving.now.time
+        wall, speed = self.film.wall, self.duty.speed(time)
+        velocity, scale = moving.now.velocity, np.where(wall.turns, 1.0, wall.unit[0])
+        named = wall.names[0] == "film"
+        solution = self._solution(instant, abs(speed))
+        force, load = film.force(instant.state.pressure), self.duty.force(time)
+        friction, torque, power = self._friction(solution)
+        squeeze = -float(force @ velocity)
+        flows, stored, rate, imbalance = self._flows(instant)
+        radius = (self.duty.scene.turning_radius or 1.0) if film.problem.shape.polar else 1.0
+        values = [time, speed * radius, *(instant.place / (1.0 if named else scale)), *velocity]
+        values += [*self._least(instant.faces.thickness), *self._peak(solution)]
+        values += [number for pair in zip(force, load, strict=True) for number in pair]
+        values += [friction, power, squeeze, power + squeeze, *([torque] if self._turns else []), *flows]
+        cavitated = float(film.grid.areas[instant.kind == CAVITY].sum() / film.grid.areas.sum())
+        values += [stored, rate, imbalance, cavitated, moving.step, moving.order, moving.error]
+        return np.array([*values, instant.residual, instant.force_residual, instant.iterations], dtype=float)
+
+    def fields(self, instant: Instant) -> dict[str, tuple[Array, str]]:
+        """Film thickness, pressure above ambient and density ratio over the whole width, shape (nx, ny)."""
+        solution = self._solution(instant, self.film.solved.problem.speed)
+        lowest, wide = self.duty.scene.lubricant.cavitation_pressure, self.film.widened
+        turn = slice(None, None, -1) if self.film.turned else slice(None)
+        return {
+            "film_thickness": (wide(instant.faces.thickness)[turn], "m"),
+            "pressure": (wide(instant.state.pressure)[turn] + lowest, "Pa"),
+            "density_ratio": (wide(density_ratio(solution))[turn], "1"),
+        }
+
+    @cached_property
+    def grid(self) -> dict[str, tuple[Array, str]]:
+        """The positions of the nodes over the whole width: x, m (rad where x is an angle), and y, m."""
+        grid, polar = self.film.whole.grid, self.film.whole.problem.shape.polar
+        x = self._ends - grid.x[::-1] if self.film.turned else grid.x
+        return {"x": (x, "rad" if polar else "m"), "y": (grid.y, "m")}
+
+    @property
+    def _ends(self) -> float:
+        breaks = self.film.solved.problem.shape.breaks
+        return breaks[0] + breaks[-1]
+
+    def _solution(self, instant: Instant, speed: float) -> Solution:
+        """The film that is solved as one of a steady problem."""
+        film = self.film.solved
+        return Solution(
+            problem=replace(film.problem, speed=speed),
+            turned=self.film.turned,
+            grid=film.grid,
+            faces=instant.faces,
+            network=instant.network,
+            state=instant.state,
+            kind=instant.kind,
+            residual=instant.residual,
+            imbalance=0.0,
+            levels=(),
+            coarser=None,
+        )
+
+    def _least(self, thickness: Array) -> tuple[float, float, float]:
+        """The least film thickness, m, with its place; along x that of a parabola through three nodes."""
+        grid, shape = self.film.solved.grid, self.film.solved.problem.shape
+        i, j = np.unravel_index(int(np.argmin(thickness)), thickness.shape)
+        least, x = float(thickness[i, j]), float(grid.x[i])
+        periodic, count = shape.joined[0], grid.x.size
+        if count > 2 and (periodic or 0 < i < count - 1):
+            before, after = float(thickness[i - 1, j]), float(thickness[(i + 1) % count, j])
+            bend, slope = before - 2 * least + after, (after - before) / 2
+            step = float(grid.spacing_x[i])
+            even = abs(step - float(grid.spacing_x[i - 1])) <= 1e-6 * step
+            if (
+                even
+                and not bool((np.abs(x - np.array(shape.breaks)) <= 1e-6 * step).any())
+                and bend > 0
+                and abs(slope) <= bend
+            ):
+                least -= slope**2 / (2 * bend)
+                x -= step * slope / bend
+        return least, self._along(x), self._across(int(j))
+
+    def _along(self, x: float) -> float:
+        """The position in the direction of the scene's x, m."""
+        shape = self.film.solved.problem.shape
+        x = self._ends - x if self.film.turned else x
+        return x * (self.duty.scene.turning_radius or 1.0) if shape.polar else x
+
+    def _across(self, j: int) -> float:
+        return float(self.film.solved.grid.y[j])
+
+    def _peak(self, solution: Solution) -> tuple[float, float, float]:
+        """The largest pressure above ambient, Pa, with its place."""
+        pressure = solution.state.pressure
+        i, j = np.unravel_index(int(np.argmax(pressure)), pressure.shape)
+        top = peak_pressure(solution) + self.duty.scene.lubricant.cavitation_pressure
+        return top, self._along(float(solution.grid.x[i])), self._across(int(j))
+
+    def _friction(self, solution: Solution) -> tuple[float, float, float]:
+        """The friction on the sliding wall, N, its torque, N m, and power, W."""
+        film, grid = self.film.solved, solution.grid
+        drag = drag_of_rows(solution, halved=film.halved)
+        force = film.sides * float(drag.rows.sum() + drag.between.sum())
+        radius, speed = self.duty.scene.turning_radius, solution.problem.speed
+        if not film.problem.shape.polar:
+            return force, force * (radius or 0.0), speed * force
+        torque = float((drag.rows * grid.radius).sum() + (drag.between * radius_between(grid)).sum())
+        return force, torque, speed * torque
+
+    def _flows(self, instant: Instant) -> tuple[list[float], float, float, float]:
+        """The flows that enter through each place, m³/s, the volume at cavitation density, its rate and the imbalance.
+
+        The flow through the sides counts outwards, as that through the outlet. The imbalance is that of all flows with
+        the storage, over the largest of them and of those along the film.
+        """
+        film, net = self.film.solved, instant.network
+        areas, excess = film.grid.areas, film.problem.compression(instant.state.pressure)[0]
+        filled = instant.state.fill + excess
+        outside = np.where(instant.kind >= FIXED, instant.balance, 0.0)
+        if net.supplied.size:
+            outside = outside.copy()
+            outside[0] += net.supplied
+        flows = []
+        for name, nodes in self._places.items():
+            flow = float(outside[nodes].sum())
+            if name.startswith("side"):
+                flows.append(-flow)
+            else:
+                flows.append((-film.sides if name == "outlet_flow" else film.sides) * flow)
+        stored = film.sides * float((areas * instant.faces.thickness * filled).sum())
+        rate = film.sides * float((net.storage * filled - net.stored).sum())
+        entering = sum(
+            flow if name.startswith(("supply", "inlet")) else -flow
+            for name, flow in zip(self._places, flows, strict=True)
+        )
+        passing = film.sides * float(np.abs(net.couette * filled).sum(axis=1).max())
+        largest = max([passing, abs(rate), *map(abs, flows)])
+        return flows, stored, rate, (entering - rate) / largest if largest > 0 else 0.0

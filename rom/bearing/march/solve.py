@@ -1,0 +1,282 @@
+"""A march of a bearing with its answer, the uncertainty of the answer, and a file from which it goes on."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.ranges import in_range, whole_in_range
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.march.course import Duty, refuse_unsupported
+from roughfilm.rom.bearing.march.series import Numerics, Series, run
+from roughfilm.rom.bearing.march.store import finish, keeper, kept
+from roughfilm.rom.bearing.march.summary import Summary, apart, summary_of
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.solve import FIRST_COARSENING
+from roughfilm.rom.ladder.model import Progress, silent
+from roughfilm.rom.ladder.provenance import code
+from roughfilm.rom.ladder.scene import scene_entries
+
+CELLS = (64, 32)
+"""Cells along and across."""
+
+ERROR = 1e-3
+"""Largest error of a step."""
+
+MIN_CELLS, MAX_CELLS = 8, 512
+"""Smallest and largest number of cells along a side."""
+
+MAX_STEPS = 1_000_000
+"""Largest number of steps of one length."""
+
+MAX_FIELDS = 1000
+"""Largest number of times at which fields are kept."""
+
+COARSER_ERROR = 4.0
+"""Error of a step of the march that shows the error by the time steps, over that of the march."""
+
+GRID_SAFETY = 4.0
+"""Uncertainty by the grid over the difference to the coarse grid."""
+
+TIME_SAFETY = 2.0
+"""Uncertainty by the time steps over the difference of two errors of a step, on the coarse grid."""
+
+PATH_SAFETY = 1.0
+"""Least uncertainty of the extremes of a path over its differences to those of the other marches."""
+
+FRICTIONS = frozenset({"friction_mean", "torque_mean", "power_loss_mean"})
+FRICTION_SAFETY = 0.3
+"""Least relative uncertainty of these means over the difference of the path."""
+
+PARTS = {"fine": 0.6, "coarse": 0.25, "coarser": 0.15}
+"""The marches, with the part of the work of each."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class March:
+    """A bearing in time.
+
+    Attributes
+    ----------
+    scene : the bearing.
+    numerics : the grid and the time steps.
+    series : the numbers of every step, ``march["film_min"]``, and fields at some times.
+    first, last : times, s, between which the quantities hold: the last period, or all of the time.
+    state : how the march ends, such as "at rest in its equilibrium".
+    settled : whether the last two periods agree; None where nothing repeats.
+    quantities : extremes and means, with uncertainties.
+    titles : the titles of the quantities.
+    warnings : what to know about the numbers.
+    """
+
+    scene: Bearing
+    numerics: Numerics
+    series: Series
+    first: float
+    last: float
+    state: str
+    settled: bool | None
+    quantities: Mapping[str, Quantity]
+    titles: Mapping[str, str]
+    warnings: tuple[str, ...]
+
+    @property
+    def time(self) -> Array:
+        """The times of the steps, s."""
+        return self.series.time
+
+    def __getitem__(self, name: str) -> Array:
+        """The numbers of a name over the steps, in SI units; ``march.series.units`` has the names."""
+        if name not in self.series.units:
+            raise InputError(f"march: got {name!r:.60}; the numbers are {', '.join(self.series.units)}")
+        return self.series[name]
+
+
+def numerics_of(
+    duty: Duty,
+    *,
+    end: float | None,
+    error: float,
+    steps: int | None,
+    cells: tuple[int, int],
+    fields: int,
+) -> Numerics:
+    """The grid and the time steps of a march; InputError if one of them is out of range."""
+    begin = duty.begin
+    last = duty.default_end() if end is None else in_range("end", end, "s")
+    if last <= begin:
+        raise InputError(f"end: got {last!r} s; it must be after the first time, {begin!r} s")
+    table = duty.scene.motion.over_time
+    if table is not None and table.period is None and last > (longest := float(table.table.time[-1])) * (1 + 1e-9):
+        raise InputError(f"end: got {last!r} s; the table ends at {longest!r} s, give less, or motion.over_time.period")
+    if duty.approach > 0 and (contact := duty.scene.geometry.thinnest / duty.approach) <= last:
+        raise InputError(f"end: got {last!r} s; the walls touch at {contact!r} s, give less")
+    for name, count in zip(("cells along", "cells across"), cells, strict=True):
+        whole_in_range(name, count, MIN_CELLS, MAX_CELLS)
+    if steps is not None:
+        whole_in_range("steps", steps, 1, MAX_STEPS)
+    if in_range("error", error, "1") > 1:
+        raise InputError(f"error: got {error!r}; it must be at most 1")
+    whole_in_range("fields", fields, 0, MAX_FIELDS)
+    return Numerics(
+        cells=cells,
+        end=last,
+        error=error if steps is None else None,
+        step=duty.largest_step(last) if steps is None else (last - begin) / steps,
+        field_times=tuple(np.linspace(begin, last, fields).tolist()) if fields else (),
+    )
+
+
+def march_bearing(
+    scene: Bearing,
+    *,
+    end: float | None = None,
+    error: float = ERROR,
+    steps: int | None = None,
+    cells: tuple[int, int] = CELLS,
+    fields: int = 0,
+    uncertain: bool = True,
+    path: Path | None = None,
+    progress: Progress = silent,
+) -> March:
+    """March a bearing in time, with the uncertainty of its answer.
+
+    Two marches on a grid with 0.62 times the cells, of which one has larger steps, show the errors by grid and steps.
+
+    Parameters
+    ----------
+    end : last time, s; by default that of the table, five of its periods, or 20 turns.
+    error : largest error of a step.
+    steps : number of equal steps, in place of steps by their error.
+    cells : cells along and across.
+    fields : number of times, evenly spaced, at which fields are kept.
+    uncertain : whether the uncertainty is estimated.
+    path : HDF5 file from which a stopped march goes on.
+
+    Raises
+    ------
+    InputError
+        For a scene without a march, or an option out of range.
+    ConvergenceError
+        If a film becomes too thin, or a step does not converge.
+    """
+    duty = Duty(scene=scene)
+    refuse_unsupported(duty)
+    numerics = numerics_of(duty, end=end, error=error, steps=steps, cells=cells, fields=fields)
+    entries = scene_entries(scene)
+    entries.pop("name", None)
+    settings = {
+        "scene": entries,
+        "cells": list(cells),
+        "end": numerics.end,
+        "error": numerics.error,
+        "step": numerics.step,
+        "fields": fields,
+        "code": code(),
+    }
+    inputs = Inputs(heights=np.zeros((0, 0)), spacing=(0.0, 0.0), settings=settings)
+    shares = PARTS if uncertain else {"fine": 1.0}
+    done = 0.0
+
+    def marched(name: str, given: Numerics) -> Series:
+        known = () if path is None else kept(path, inputs, name)
+        start, part = done, shares[name]
+        return run(
+            duty,
+            given,
+            known=known,
+            keep=(lambda _chunk: None) if path is None else keeper(path, inputs, name, len(known)),
+            progress=lambda fraction, words: progress(start + part * fraction, words),
+        )
+
+    series = marched("fine", numerics)
+    summary = summary_of(duty, series)
+    quantities, warnings = dict(summary.quantities), _warnings(summary)
+    done = shares["fine"]
+    if uncertain:
+        coarse = replace(numerics, cells=(_coarser(cells[0]), _coarser(cells[1])), field_times=())
+        looser = _looser(coarse)
+        try:
+            others = [marched("coarse", coarse)]
+            done += shares["coarse"]
+            others.append(marched("coarser", looser))
+        except ConvergenceError as fault:
+            warnings.append(f"no uncertainty: the march on a coarser grid stopped ({fault})")
+        else:
+            uncertainties = _uncertainties(duty, summary, series, others, cells[0])
+            quantities = {name: replace(one, uncertainty=uncertainties[name]) for name, one in quantities.items()}
+    march = March(
+        scene=scene,
+        numerics=numerics,
+        series=series,
+        first=summary.first,
+        last=summary.last,
+        state=summary.state,
+        settled=summary.settled,
+        quantities=quantities,
+        titles=summary.titles,
+        warnings=tuple(warnings),
+    )
+    if path is not None:
+        finish(path, series, entries_of(quantities))
+    return march
+
+
+def _uncertainties(
+    duty: Duty, summary: Summary, fine: Series, others: list[Series], fine_cells: int
+) -> dict[str, float]:
+    """The uncertainty of each quantity, from a coarser grid, and from that with longer steps too.
+
+    The difference of two extremes may be small by chance; that of the paths on which they lie bounds it from below, and
+    the edge of a cavity is known to one cell along the film.
+    """
+    coarse, looser = (summary_of(duty, one).quantities for one in others)
+    found = {
+        name: GRID_SAFETY * abs(one.value - coarse[name].value)
+        + TIME_SAFETY * abs(coarse[name].value - looser[name].value)
+        for name, one in summary.quantities.items()
+    }
+    times = summary.first, summary.last
+    path = apart(duty, fine, others[0], *times) + apart(duty, others[0], others[1], *times)
+    unit = getattr(duty.scene.geometry, "clearance", None) or float(fine["film_min"][0])
+    least = dict.fromkeys(("eccentricity_max", "orbit_width", "orbit_height"), PATH_SAFETY * path)
+    least |= {"film_min": PATH_SAFETY * path * unit, "cavitated_fraction_max": 1 / fine_cells}
+    film, pressure = (summary.quantities[name].value for name in ("film_min", "pressure_max"))
+    least["pressure_max"] = abs(pressure) * least["film_min"] / film
+    for name in FRICTIONS & summary.quantities.keys():
+        least[name] = FRICTION_SAFETY * path * abs(summary.quantities[name].value)
+    return {name: max(one, least.get(name, 0.0)) for name, one in found.items()}
+
+
+def entries_of(quantities: Mapping[str, Quantity]) -> dict[str, dict[str, float | str]]:
+    """The quantities as entries for JSON."""
+    return {
+        name: {
+            "value": quantity.value,
+            "unit": quantity.unit,
+            **({} if quantity.uncertainty is None else {"uncertainty": quantity.uncertainty}),
+        }
+        for name, quantity in quantities.items()
+    }
+
+
+def _coarser(count: int) -> int:
+    return max(MIN_CELLS // 2, 2 * round(FIRST_COARSENING * count / 2))
+
+
+def _looser(numerics: Numerics) -> Numerics:
+    """The numerics with a larger error, or with steps twice as long."""
+    if numerics.error is None:
+        return replace(numerics, step=2 * numerics.step)
+    return replace(numerics, error=min(COARSER_ERROR * numerics.error, 1.0))
+
+
+def _warnings(summary: Summary) -> list[str]:
+    """Why the answer may not hold later."""
+    if summary.settled is None or summary.settled:
+        return []
+    return [f"the march is not settled: {summary.state}; take a later end"]

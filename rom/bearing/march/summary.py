@@ -1,0 +1,163 @@
+"""The answer of a march: the last period, or all of the time, its extremes and means, and the orbit."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.march.course import Duty
+from roughfilm.rom.bearing.march.series import Series
+
+REPEATED = 0.01
+"""Largest difference of the last two periods over the clearance, or over the first film, of a settled march."""
+
+AT_REST = 1e-3
+"""Size of the motion in the last part of a march over the clearance, below which the shaft is at rest."""
+
+LAST_PART = 0.2
+"""The last part of a march without a period, for which its answer holds, and that before it, with which it agrees."""
+
+SAMPLES = 400
+"""Number of times at which two periods are compared."""
+
+EXTREMES = {
+    "film_min": ("least film thickness", "film_min", min),
+    "pressure_max": ("peak pressure", "pressure_max", max),
+    "cavitated_fraction_max": ("largest cavitated fraction", "cavitated_fraction", max),
+}
+MEANS = {
+    "friction": "mean friction",
+    "torque": "mean torque",
+    "power_loss": "mean power loss",
+    "inlet_flow": "mean flow in",
+    "outlet_flow": "mean flow out",
+    "side_flow_low": "mean flow through the low side",
+    "side_flow_high": "mean flow through the high side",
+}
+"""Titles of the means of columns."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Summary:
+    """The answer of a march.
+
+    Attributes
+    ----------
+    first, last : times, s, for which the quantities hold.
+    state : how the march ends, in words.
+    settled : whether the last two periods, or parts, agree; None where nothing repeats.
+    quantities : extremes and means between these times.
+    titles : their titles.
+    """
+
+    first: float
+    last: float
+    state: str
+    settled: bool | None
+    quantities: Mapping[str, Quantity]
+    titles: Mapping[str, str]
+
+
+def summary_of(duty: Duty, series: Series) -> Summary:
+    """The answer of a march."""
+    first, last, state, settled = _window(duty, series)
+    inside = series.time >= first - 1e-9 * (last - first)
+    quantities, titles = {}, {}
+    for name, (title, column, extreme) in EXTREMES.items():
+        quantities[name] = Quantity(value=float(extreme(series[column][inside])), unit=series.units[column])
+        titles[name] = title
+    means = {name: title for name, title in MEANS.items() if name in series.units}
+    means |= {name: f"mean flow of {name.replace('_flow_', ' ')}" for name in series.units if name.startswith("supply")}
+    for name, title in means.items():
+        quantities[f"{name}_mean"] = Quantity(value=mean(series, name, first, last), unit=series.units[name])
+        titles[f"{name}_mean"] = title
+    if duty.lobes:
+        x, y = series["eccentricity_x"][inside], series["eccentricity_y"][inside]
+        for name, title, value in (
+            ("orbit_width", "width of the orbit over the clearance", float(np.ptp(x))),
+            ("orbit_height", "height of the orbit over the clearance", float(np.ptp(y))),
+            ("eccentricity_max", "largest eccentricity", float(np.hypot(x, y).max())),
+        ):
+            quantities[name], titles[name] = Quantity(value=value, unit="1"), title
+    return Summary(first=first, last=last, state=state, settled=settled, quantities=quantities, titles=titles)
+
+
+def mean(series: Series, name: str, first: float, last: float) -> float:
+    """The mean of a column over a range of time, by the trapezoidal rule."""
+    time, values = series.time, series[name]
+    inside = (time > first) & (time < last)
+    times = np.concatenate([[first], time[inside], [last]])
+    numbers = np.interp(times, time, values)
+    return float(np.trapezoid(numbers, times) / (last - first))
+
+
+def apart(duty: Duty, one: Series, other: Series, first: float, last: float) -> float:
+    """The largest difference of two paths between two times, over the clearance or over the first film."""
+    times = np.linspace(first, last, SAMPLES)
+    first_path, second_path = (
+        np.array([np.interp(times, series.time, values) for values in _places(duty, series).T])
+        for series in (one, other)
+    )
+    return float(np.hypot.reduce(np.abs(first_path - second_path), axis=0).max())
+
+
+def _places(duty: Duty, series: Series) -> Array:
+    """The coordinates of the wall over the steps, over the clearance or the first film, shape (steps, k)."""
+    if duty.lobes:
+        return np.stack([series["eccentricity_x"], series["eccentricity_y"]], axis=1)
+    return np.asarray(series["film"][:, None] / series["film"][0])
+
+
+def _window(duty: Duty, series: Series) -> tuple[float, float, str, bool | None]:
+    """The times for which the answer holds, how the march ends in words, and whether it is settled."""
+    time, places = series.time, _places(duty, series)
+    begin, end, period = float(time[0]), float(time[-1]), duty.period
+    if period is not None and end - begin >= period * (1 - 1e-9):
+        if end - begin < 2 * period * (1 - 1e-9):
+            return end - period, end, "one period; nothing shows whether it repeats", None
+        change = _difference(time, places, period)
+        words = f"the last two periods differ by {100 * change:.2g} % of the {_scale(duty)}"
+        return end - period, end, words, change <= REPEATED
+    if duty.curves or duty.approach:
+        return begin, end, "all of the time", None
+    part = LAST_PART * (end - begin)
+    sizes = [_size(places[(time >= end - (n + 1) * part) & (time <= end - n * part)]) for n in (0, 1)]
+    first = end - part
+    if sizes[0] < AT_REST:
+        return first, end, "at rest in its equilibrium", True
+    if duty.lobes:
+        return first, end, *_whirl(duty, series, sizes)
+    growing = sizes[0] > sizes[1]
+    return first, end, f"a motion that {'grows' if growing else 'decays'}", False
+
+
+def _whirl(duty: Duty, series: Series, sizes: list[float]) -> tuple[str, bool]:
+    """How the shaft whirls without anything that makes it do so, and whether its orbit repeats."""
+    x, y = series["eccentricity_x"], series["eccentricity_y"]
+    inside = series.time >= series.time[-1] - LAST_PART * (series.time[-1] - series.time[0])
+    along, up, time = x[inside] - x[inside].mean(), y[inside] - y[inside].mean(), series.time[inside]
+    turned = float(np.ptp(np.unwrap(np.arctan2(up, along)))) / float(np.ptp(time))
+    ratio = turned * (duty.turn or math.inf) / (2 * math.pi)
+    words = f"at {ratio:.3g} of the rotational speed"
+    if abs(sizes[0] - sizes[1]) <= REPEATED * sizes[0]:
+        return f"a whirl of constant size, a limit cycle, {words}", True
+    return f"a whirl that {'grows' if sizes[0] > sizes[1] else 'decays'}, {words}", False
+
+
+def _scale(duty: Duty) -> str:
+    return "clearance" if duty.lobes else "first film"
+
+
+def _size(places: Array) -> float:
+    """The largest extent of a path along a coordinate."""
+    return float(np.ptp(places, axis=0).max()) if len(places) else 0.0
+
+
+def _difference(time: Array, places: Array, period: float) -> float:
+    """The largest change of the coordinates from the last but one period to the last."""
+    now = np.linspace(time[-1] - period, time[-1], SAMPLES)
+    changes = [np.abs(np.interp(now, time, one) - np.interp(now - period, time, one)).max() for one in places.T]
+    return float(max(changes))

@@ -1,0 +1,1 @@
+"""What changes in time: tables of speed, load and path, and the body that moves."""

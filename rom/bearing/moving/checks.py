@@ -1,0 +1,89 @@
+"""The checks of a scene that moves: which columns and bodies fit which walls."""
+
+import numpy as np
+
+from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
+from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.ring import Ring
+from roughfilm.rom.bearing.geometry.shapes import AnyShape
+from roughfilm.rom.bearing.moving.body import Body
+from roughfilm.rom.bearing.moving.over_time import OverTime
+
+OF_LOBES = frozenset({"angle", "load_x", "load_y", "eccentricity_x", "eccentricity_y"})
+"""Columns that only a shaft in lobes has."""
+
+
+def check_motion(geometry: AnyShape, over_time: OverTime | None, body: Body | None, *, loaded: bool) -> None:
+    """Raise ValueError, in one line, for columns or a body that the wall cannot have.
+
+    Parameters
+    ----------
+    loaded : whether the scene has a load.
+    """
+    if over_time is None and body is None:
+        return
+    if isinstance(geometry, Journal):
+        table = "motion.over_time" if over_time is not None else "body"
+        raise ValueError(f"{table}: got one for shape = 'journal', whose load has no direction; take shape = 'lobes'")
+    lobes, columns = isinstance(geometry, Lobes), over_time.table.columns.keys() if over_time is not None else set()
+    wrong = sorted({"film"} & columns if lobes else OF_LOBES & columns)
+    if wrong:
+        remedy = "eccentricity_x and eccentricity_y" if lobes else "load or film"
+        raise ValueError(f"motion.over_time.{wrong[0]}: got it for shape = {geometry.shape!r}; give {remedy}")
+    turns = isinstance(geometry, Shaft | Ring)
+    if over_time is not None and over_time.table.units.get("speed") == "rad/s" and not turns:
+        raise ValueError(
+            f"motion.over_time.speed: got a rotational one, but shape = {geometry.shape!r} slides; give m/s"
+        )
+    if (
+        over_time is not None
+        and geometry.width is None
+        and "N" in {over_time.table.units.get(n) for n in ("load", "load_x")}
+    ):
+        raise ValueError(
+            "motion.over_time.load: got a force for an infinitely wide bearing; give N/m in a file, or a width"
+        )
+    given = {"film", "eccentricity_x"} & columns
+    if given and loaded:
+        raise ValueError(f"motion.over_time.{min(given)}: got a path beside [load]; give one of the two")
+    if isinstance(geometry, Lobes) and over_time is not None and "eccentricity_x" in columns:
+        _check_path(geometry, over_time)
+    if body is not None:
+        _check_body(geometry, body, free=not given and (loaded or bool({"load", "load_x"} & columns)))
+
+
+def _check_path(geometry: Lobes, over_time: OverTime) -> None:
+    columns = over_time.table.columns
+    least = geometry.least_films(np.array([columns["eccentricity_x"], columns["eccentricity_y"]]))
+    row = int(np.argmin(least))
+    if least[row] <= 0:
+        place = [float(columns[name][row]) for name in ("eccentricity_x", "eccentricity_y")]
+        raise ValueError(
+            f"motion.over_time.eccentricity_x: got {place} in row {row + 1}; the shaft reaches {-least[row]:.3g} m "
+            "into the bore; lower it"
+        )
+
+
+def _check_body(geometry: AnyShape, body: Body, *, free: bool) -> None:
+    lobes = isinstance(geometry, Lobes)
+    if not free and (body.mass is not None or body.unbalance is not None):
+        raise ValueError("body: got one that no load acts on; give [load], or loads over time")
+    if body.unbalance is not None and not lobes:
+        raise ValueError(f"body.unbalance: got one for shape = {geometry.shape!r}; only a shaft in lobes has one")
+    start = body.start
+    if start is None:
+        return
+    if (lobes and start.film is not None) or (not lobes and start.eccentricity is not None):
+        wrong, right = ("film", "eccentricity") if lobes else ("eccentricity", "film")
+        raise ValueError(f"body.start.{wrong}: got it for shape = {geometry.shape!r}; give {right}")
+    if start.velocity is not None and len(start.velocity) != (2 if lobes else 1):
+        raise ValueError(
+            f"body.start.velocity: got {len(start.velocity)} entries; give {'two, along x and y' if lobes else 'one'}"
+        )
+    if isinstance(geometry, Lobes) and start.eccentricity is not None:
+        placed = geometry.model_copy(update={"eccentricity": start.eccentricity})
+        if placed.least_film <= 0:
+            raise ValueError(
+                f"body.start.eccentricity: got {list(start.eccentricity)}; the shaft reaches {-placed.least_film:.3g} "
+                "m into the bore; lower it"
+            )

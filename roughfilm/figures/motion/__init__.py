@@ -1,0 +1,1 @@
+"""Figures of bearings whose walls move: stiffness, damping and stability, and motions over time."""

@@ -1,0 +1,128 @@
+"""Figures of marches: the orbit, film, pressure, load, friction and flows over time, and a film over its plane."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.figures.base import new_figure
+from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.march.series import Snapshot
+from roughfilm.rom.bearing.march.solve import March
+from roughfilm.rom.bearing.scene import Bearing
+
+COLOURS = ("#2166ac", "#b2182b", "#1a7f37", "#b07d2b", "#6a51a3")
+
+BORE_SAMPLES = 361
+"""Number of directions in which the room of the shaft is drawn."""
+
+FLOW = 60e6
+"""Flow in ml/min over that in m³/s."""
+
+
+def orbit(march: March) -> Figure:
+    """The path of the centre of the shaft over the clearance, in the room that the bore leaves it."""
+    figure, axes = new_figure((8.4, 5.2))
+    x, y = march["eccentricity_x"], march["eccentricity_y"]
+    late = march.time >= march.first
+    limit = room(march.scene)
+    axes.plot(*limit, color="#444444", linewidth=1.2, label="the shaft touches the bore")
+    axes.plot(x, y, color="#9ab8d6", linewidth=0.8, label="all of the time")
+    axes.plot(x[late], y[late], color=COLOURS[0], linewidth=1.6, label="the last part")
+    least = int(np.argmin(np.where(late, march["film_min"], np.inf)))
+    axes.plot(x[0], y[0], "o", color="#444444", markersize=4, label="start")
+    axes.plot(x[least], y[least], "o", color=COLOURS[1], markersize=5, label="least film")
+    axes.set(xlabel="x over the clearance", ylabel="y over the clearance", aspect="equal")
+    axes.legend(fontsize=9, loc="center left", bbox_to_anchor=(1.02, 0.5))
+    return figure
+
+
+def room(scene: Bearing) -> tuple[Array, Array]:
+    """The eccentricities at which the shaft touches the bore, in all directions."""
+    geometry = scene.geometry
+    assert isinstance(geometry, Lobes)
+    low, high = np.zeros(BORE_SAMPLES), np.full(BORE_SAMPLES, 3.0)
+    angles = np.linspace(0, 2 * np.pi, BORE_SAMPLES)
+    for _ in range(24):
+        middle = (low + high) / 2
+        opens = geometry.least_films(middle * np.array([np.cos(angles), np.sin(angles)])) > 0
+        low, high = np.where(opens, middle, low), np.where(opens, high, middle)
+    return low * np.cos(angles), low * np.sin(angles)
+
+
+def over_time(march: March) -> Figure:
+    """Least film, peak pressure, load, friction, power, flows and cavities over time."""
+    figure, panels = new_figure((11.4, 8.2), 3, 2, sharex=True)
+    scale, unit = (1e3, "ms") if march.time[-1] < 1 else (1.0, "s")
+    time = scale * march.time
+    units = march.series.units
+    film, pressure, load, power, flows, cavities = panels.ravel()
+    film.plot(time, 1e6 * march["film_min"], color=COLOURS[0])
+    film.set(ylabel="least film, µm")
+    pressure.plot(time, 1e-6 * march["pressure_max"], color=COLOURS[1])
+    pressure.set(ylabel="peak pressure, MPa")
+    forces = [name for name in units if name.startswith("load_force")]
+    for name, colour in zip(forces, COLOURS, strict=False):
+        part = name.removeprefix("load_force").removeprefix("_") or "normal"
+        load.plot(time, 1e-3 * march[name], color=colour, label=f"load, {part}")
+        load.plot(
+            time,
+            -1e-3 * march[name.replace("load_", "film_")],
+            color=colour,
+            linestyle=":",
+            label=f"minus film, {part}",
+        )
+    load.set(ylabel="force, kN" if units[forces[0]] == "N" else "force per width, kN/m")
+    power.plot(time, march["power_loss"], color=COLOURS[0], label="all")
+    power.plot(time, march["power_squeeze"], color=COLOURS[3], label="by squeezing")
+    power.set(ylabel=f"power loss, {units['power_loss']}")
+    wide = units["volume_rate"] == "m^2/s"
+    for name, colour in zip(
+        [n for n in units if "_flow" in n and n.startswith(("supply", "inlet", "outlet", "side"))],
+        COLOURS,
+        strict=False,
+    ):
+        flows.plot(
+            time, (1e6 if wide else FLOW) * march[name], color=colour, label=name.replace("_flow", "").replace("_", " ")
+        )
+    flows.plot(time, (1e6 if wide else FLOW) * march["volume_rate"], color="#888888", linewidth=0.8, label="storage")
+    flows.set(ylabel="flow, mm²/s" if wide else "flow, ml/min")
+    cavities.plot(time, 100 * march["cavitated_fraction"], color=COLOURS[2])
+    cavities.set(ylabel="cavitated, %")
+    for axes in panels.ravel():
+        _shade(axes, scale * march.first, scale * march.last)
+    for axes in panels[-1]:
+        axes.set(xlabel=f"time, {unit}")
+    for axes in (load, power, flows):
+        axes.legend(fontsize=8, ncols=2)
+    return figure
+
+
+def _shade(axes: Axes, first: float, last: float) -> None:
+    axes.axvspan(first, last, color="black", alpha=0.05, zorder=-1)
+
+
+def film(march: March, snapshot: Snapshot) -> Figure:
+    """Pressure and film thickness over the unrolled film at one time."""
+    figure, panels = new_figure((11.4, 3.6), 1, 2)
+    (x, unit), (y, _) = march.series.grid["x"], march.series.grid["y"]
+    along = np.degrees(x) if unit == "rad" else 1e3 * x
+    for axes, name, scale, title, map_ in (
+        (panels[0], "pressure", 1e-6, "pressure above ambient, MPa", "viridis"),
+        (panels[1], "film_thickness", 1e6, "film thickness, µm", "cividis"),
+    ):
+        values = scale * snapshot.fields[name][0]
+        axes.grid(visible=False)
+        if y.size > 1:
+            drawn = axes.contourf(along, 1e3 * y, values.T, levels=21, cmap=map_)
+            figure.colorbar(drawn, ax=axes, label=title)
+            axes.set(ylabel="y, mm")
+            if name == "pressure":
+                cavity = (snapshot.fields["density_ratio"][0] < 1 - 1e-9).astype(float)
+                if cavity.any():
+                    axes.contour(along, 1e3 * y, cavity.T, levels=[0.5], colors="white", linewidths=0.8)
+        else:
+            axes.plot(along, values[:, 0], color=COLOURS[0])
+            axes.set(ylabel=title)
+        axes.set(xlabel="angle, deg" if unit == "rad" else "x along the film, mm")
+    return figure

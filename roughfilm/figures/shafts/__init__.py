@@ -1,0 +1,1 @@
+"""Figures of shafts in bores."""

@@ -1,0 +1,86 @@
+"""Stiffness, damping and stability of bearings in words."""
+
+import math
+
+from roughfilm.contact.foundation.rounding import with_error
+from roughfilm.rom.bearing.dynamics.point import DynamicPoint
+from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.words.numbers import digits
+from roughfilm.words.stribeck import SpeedScale, speed_scale
+
+STABLE, UNSTABLE = "any", "none"
+"""Critical mass of a rotor that is stable at any mass, or at none."""
+
+
+def number_of(point: DynamicPoint, name: str, factor: float = 1.0) -> str:
+    """A number of a point times a factor, with its uncertainty, which may be unknown."""
+    text = with_error(factor * point.numbers[name], factor * point.uncertainty.get(name, math.inf))
+    return text.replace("-", "−")
+
+
+def critical_mass(point: DynamicPoint) -> str:
+    """The largest mass, kg, with its uncertainty, at which a rigid rotor is stable; or "any" or "none"."""
+    value = point.numbers["critical_mass"]
+    if not value or math.isinf(value):
+        return STABLE if value else UNSTABLE
+    return number_of(point, "critical_mass")
+
+
+def whirl_ratio(point: DynamicPoint) -> str:
+    """The whirl ratio with its uncertainty; "none" without whirl."""
+    value = point.numbers["whirl_ratio"]
+    return number_of(point, "whirl_ratio") if value > 0 else "none"
+
+
+def onset(scene: Bearing, curve: DynamicCurve) -> str:
+    """The speed at which a rotor of the scene's mass becomes unstable, in words; "" without a mass."""
+    if curve.onset is None:
+        return ""
+    scale, rotor = speed_scale(scene), f"a rotor of {curve.onset.mass:.4g} kg"
+    if math.isnan(curve.onset.rotation):
+        return f"{rotor} is unstable at all speeds from {_lowest(curve, scale)} on"
+    if math.isinf(curve.onset.rotation):
+        return f"{rotor} is stable at all speeds"
+    factor = 60 / (2 * math.pi)
+    speed = with_error(factor * curve.onset.rotation, factor * curve.onset.uncertainty)
+    return f"{rotor} becomes unstable at {speed} rpm"
+
+
+def _lowest(curve: DynamicCurve, scale: SpeedScale) -> str:
+    return f"{digits(scale.factor * curve.points[0].speed)} {scale.unit}"
+
+
+def own_point(scene: Bearing, curve: DynamicCurve) -> DynamicPoint:
+    """The point of a curve whose speed is nearest to that of the scene."""
+    own = abs(scene.motion.speed)
+    return min(curve.points, key=lambda point: abs(point.speed - own))
+
+
+def answer_of(scene: Bearing, curve: DynamicCurve) -> str:
+    """Stiffness, damping and stability of a curve at the speed nearest to that of the scene."""
+    point, scale = own_point(scene, curve), speed_scale(scene)
+    at = f"at {digits(scale.factor * point.speed)} {scale.unit} under {curve.pressure / 1e6:.4g} MPa"
+    if "whirl_ratio" not in point.numbers:
+        return f"stiffness {number_of(point, 'stiffness', 1e-6)} N/µm, damping {number_of(point, 'damping')} N·s/m {at}"
+    mass = critical_mass(point)
+    if mass in (STABLE, UNSTABLE):
+        words = f"a rigid rotor is stable at {'any' if mass == STABLE else 'no'} mass {at}"
+    else:
+        words = f"a rigid rotor is stable up to {mass} kg in the bearing, whirl ratio {whirl_ratio(point)}, {at}"
+    return "; ".join(filter(None, [words, onset(scene, curve)]))
+
+
+def warnings_of(scene: Bearing, curve: DynamicCurve) -> list[str]:
+    """Warnings about the speeds without an equilibrium, and about unstable rotors."""
+    scale, warnings, load = speed_scale(scene), [], f"{curve.pressure / 1e6:.4g} MPa"
+    if curve.omitted:
+        speeds = ", ".join(digits(scale.factor * one.speed) for one in curve.omitted)
+        warnings.append(f"{load}: left out at {speeds} {scale.unit}: {curve.omitted[0].reason}")
+    unstable = [point for point in curve.points if point.numbers.get("critical_mass") == 0]
+    if unstable:
+        warnings.append(
+            f"{load}: at {len(unstable)} of {len(curve.points)} speeds a rotor is stable at no mass: the stiffness or "
+            "the damping is not positive there"
+        )
+    return warnings

@@ -1,0 +1,35 @@
+"""Marches in words: their quantities in the units in which people read them."""
+
+from collections.abc import Iterator, Mapping
+
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.words.numbers import with_error
+
+SHOWN = {
+    "m": (1e-6, "µm"),
+    "Pa": (1e6, "MPa"),
+    "m^3/s": (1e-6 / 60, "ml/min"),
+    "m^2/s": (1e-4 / 60, "cm²/min"),
+    "N*m": (1.0, "N m"),
+    "1": (1.0, ""),
+}
+"""The unit in which a quantity of each SI unit is shown, and its size; others are shown in SI units."""
+
+
+def shown(quantity: Quantity) -> tuple[str, str]:
+    """The number of a quantity with its uncertainty, and its unit."""
+    size, unit = SHOWN.get(quantity.unit, (1.0, quantity.unit))
+    uncertainty = None if quantity.uncertainty is None else quantity.uncertainty / size
+    return with_error(quantity.value / size, uncertainty), unit
+
+
+def rows_of(quantities: Mapping[str, Quantity], titles: Mapping[str, str]) -> Iterator[tuple[str, str, str]]:
+    """Title, number and unit of each quantity."""
+    for name, quantity in quantities.items():
+        yield (titles[name], *shown(quantity))
+
+
+def headline(quantities: Mapping[str, Quantity]) -> str:
+    """The least film and the peak pressure in one phrase."""
+    film, pressure = (" ".join(shown(quantities[name])) for name in ("film_min", "pressure_max"))
+    return f"least film {film}, peak pressure {pressure}"

@@ -1,0 +1,94 @@
+"""The stability of rigid rotors against the eigenvalues of their motion."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from roughfilm.rom.bearing.dynamics.whirl import condensed, rigid_whirl, whirl_of
+
+K = np.array([[1.5, 7.3], [-2.2, 1.5]])
+B = np.array([[14.7, 1.6], [1.6, 4.5]])
+entries = st.floats(-3, 3, allow_subnormal=False)
+
+
+def growth(mass: float, stiffness: np.ndarray, damping: np.ndarray) -> float:
+    """The largest real part of the eigenvalues of M z'' + B z' + K z = 0."""
+    zero, one = np.zeros((2, 2)), np.eye(2)
+    matrix = np.block([[zero, one], [-stiffness / mass, -damping / mass]])
+    return float(np.linalg.eigvals(matrix).real.max())
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.tuples(*[entries] * 4), st.tuples(*[st.floats(0.2, 3)] * 2), st.floats(-0.4, 0.4))
+def test_a_rotor_is_stable_exactly_below_the_critical_mass(k, diagonal, cross):
+    stiffness = np.array(k).reshape(2, 2)
+    damping = np.array([[diagonal[0], cross], [cross, diagonal[1]]])
+    inverse = rigid_whirl(stiffness, damping).inverse_mass
+    if abs(np.linalg.det(stiffness)) < 0.05 or (math.isfinite(inverse) and abs(inverse) < 0.05):
+        return  # too near to a limit for eigenvalues to decide
+    if math.isinf(inverse):
+        masses = {0.02: 1.0, 1.0: 1.0, 50.0: 1.0} if np.linalg.det(stiffness) < 0 else {}
+    elif inverse < 0:
+        masses = {0.02: -1.0, 1.0: -1.0, 50.0: -1.0}
+    else:
+        masses = {0.9 / inverse: -1.0, 1.1 / inverse: 1.0}
+    for mass, sign in masses.items():
+        assert sign * growth(mass, stiffness, damping) > 0
+
+
+def test_at_the_critical_mass_the_rotor_whirls_without_growth_or_decay():
+    whirl = rigid_whirl(K, B)
+    mass, frequency = 1 / whirl.inverse_mass, math.sqrt(whirl.frequency_squared)
+    assert growth(mass, K, B) == pytest.approx(0, abs=1e-9)
+    assert abs(np.linalg.det(K - mass * frequency**2 * np.eye(2) + 1j * frequency * B)) < 1e-9
+
+
+def test_a_symmetric_stiffness_carries_any_mass_and_a_negative_one_none():
+    assert rigid_whirl((K + K.T) / 2 + 4 * np.eye(2), B).inverse_mass <= 0
+    assert rigid_whirl(np.diag([1.0, -1.0]), B).inverse_mass == math.inf
+
+
+def pads() -> tuple[np.ndarray, np.ndarray]:
+    """Stiffness and damping of a shaft and two pads."""
+    between = np.array([[0.5, -0.3], [0.2, 0.6]])
+    stiffness = np.block([[K, between], [between.T, np.diag([2.0, 3.0])]])
+    return stiffness, np.block([[B, 0.5 * between], [0.5 * between.T, np.diag([1.0, 1.5])]])
+
+
+def test_condensed_pads_follow_without_force():
+    k, b = pads()
+    kept = np.array([True, True, False, False])
+    for frequency in (0.3, 2.0):
+        stiffness, damping = condensed(k, b, kept, frequency)
+        z = k + 1j * frequency * b
+        pads_follow = -np.linalg.solve(z[2:, 2:], z[2:, :2])
+        force = z @ np.vstack([np.eye(2), pads_follow])
+        assert force[2:] == pytest.approx(np.zeros((2, 2)), abs=1e-12)
+        assert force[:2] == pytest.approx(stiffness + 1j * frequency * damping, rel=1e-12)
+    slow, limit = condensed(k, b, kept, 1e-6), condensed(k, b, kept, 0.0)
+    for one, other in zip(slow, limit, strict=True):
+        assert one == pytest.approx(other, rel=1e-6)
+
+
+def test_the_whirl_of_a_shaft_on_pads_is_where_its_eigenvalues_cross():
+    k, b = pads()
+    kept = np.array([True, True, False, False])
+    whirl = whirl_of(lambda frequency: condensed(k, b, kept, frequency), 1.0)
+    assert whirl.inverse_mass > 0
+    frequency = math.sqrt(whirl.frequency_squared)
+    inertia = np.diag([1.0, 1.0, 0, 0]) * frequency**2 / whirl.inverse_mass
+    singular = np.linalg.svd(k - inertia + 1j * frequency * b, compute_uv=False)
+    assert singular[-1] < 1e-8 * singular[0]
+
+
+def test_pads_that_do_not_move_leave_the_whirl_of_the_shaft():
+    for turned in (K, (K + K.T) / 2 + 4 * np.eye(2)):
+        whirl, rigid = whirl_of(lambda _frequency, k=turned: (k, B), 1.0), rigid_whirl(turned, B)
+        if rigid.inverse_mass > 0:
+            assert whirl.inverse_mass == pytest.approx(rigid.inverse_mass, rel=1e-9)
+            assert whirl.frequency_squared == pytest.approx(rigid.frequency_squared, rel=1e-9)
+        else:
+            assert whirl.inverse_mass <= 0

@@ -1,0 +1,68 @@
+"""Direct solutions by bands against a general sparse solver."""
+
+import numpy as np
+import pytest
+from scipy.sparse import lil_array
+from scipy.sparse.linalg import spsolve
+
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.rom.cavitation.motion.bands import Bands
+from roughfilm.rom.cavitation.newton import Linear
+
+
+def system(shape, *, periodic, seed):
+    """A random system with a dominant diagonal: neighbours beyond the ends have no entries."""
+    random = np.random.default_rng(seed)
+    west, east, south, north = random.uniform(-1.0, 0.0, (4, *shape))
+    if not periodic:
+        west[0] = east[-1] = 0.0
+    south[:, 0] = north[:, -1] = 0.0
+    nothing = np.zeros(shape)
+    centre = 4.5 + random.uniform(0.0, 1.0, shape)
+    kind = np.zeros(shape, dtype=np.int8)
+    return Linear(kind, nothing, nothing, centre, west, east, south, north)
+
+
+def by_sparse(linear, known, sources):
+    """The solution of the whole sparse system with 1 · change = 0 at known nodes."""
+    nx, ny = known.shape
+    matrix = lil_array((nx * ny, nx * ny))
+    for i in range(nx):
+        for j in range(ny):
+            row = i * ny + j
+            matrix[row, row] = 1.0 if known[i, j] else linear.centre[i, j]
+            beside = (
+                (i - 1, j, linear.west),
+                (i + 1, j, linear.east),
+                (i, j - 1, linear.south),
+                (i, j + 1, linear.north),
+            )
+            for k, m, part in beside:
+                if not known[i, j] and part[i, j] and not known[k % nx, m]:
+                    matrix[row, (k % nx) * ny + m] += part[i, j]
+    right = np.where(known[..., None], 0.0, sources).reshape(nx * ny, -1)
+    return spsolve(matrix.tocsc(), right).reshape(sources.shape)
+
+
+@pytest.mark.parametrize("ny", [1, 2, 5])
+@pytest.mark.parametrize(
+    ("periodic", "grooves"),
+    [(False, ()), (False, (0, 8)), (True, ()), (True, (0,)), (True, (3, 4)), (True, (8,))],
+    ids=["open", "open, fixed ends", "periodic", "groove at 0", "groove inside", "groove at the end"],
+)
+def test_bands_solve_what_a_sparse_solver_solves(ny, periodic, grooves):
+    linear = system((9, ny), periodic=periodic, seed=ny)
+    known = np.random.default_rng(1).random((9, ny)) < 0.2
+    known[~np.isin(np.arange(9), grooves) & known.all(axis=1)] = False
+    known[list(grooves)] = True
+    sources = np.where(known[..., None], 0.0, np.random.default_rng(2).normal(size=(9, ny, 3)))
+    ours = Bands(linear, known, periodic=periodic).solve(sources)
+    np.testing.assert_allclose(ours, by_sparse(linear, known, sources), rtol=1e-12, atol=1e-13)
+
+
+def test_a_singular_matrix_is_an_error_in_one_line():
+    linear = system((5, 2), periodic=False, seed=0)
+    for part in (linear.centre, linear.west, linear.east, linear.south, linear.north):
+        part[2] = 0.0
+    with pytest.raises(ConvergenceError, match="the matrix of the film is singular"):
+        Bands(linear, np.zeros((5, 2), dtype=bool), periodic=False)

@@ -1,0 +1,82 @@
+"""roughfilm dynamics as people call it."""
+
+import json
+import tomllib
+
+import pytest
+from places import SCENES
+from typer.testing import CliRunner
+
+from roughfilm.cli.main import app
+
+SCENE = SCENES / "grooved_journal.toml"
+
+
+def run(*arguments, scene=SCENE):
+    words = ["dynamics", str(scene), "--resolution", "32", *map(str, arguments)]
+    return CliRunner().invoke(app, words, catch_exceptions=False)
+
+
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory):
+    """The directory of a finished sweep, and what ``--json`` prints."""
+    out = tmp_path_factory.mktemp("dynamics")
+    done = run("--out", out, "--loads", "5kN,10kN", "--speeds", "0.02rpm,1000rpm,3000rpm", "--json")
+    assert done.exit_code == 0, done.stderr
+    return out, json.loads(done.stdout), done.stderr
+
+
+def test_files_and_entries_hold_the_same_numbers(swept):
+    out, entries, _ = swept
+    assert {path.name for path in out.iterdir()} >= {
+        *("dynamics.csv", "dynamics.h5", "dynamics.json", "report.html", "ross_1.toml", "ross_2.toml")
+    }
+    for number, curve in enumerate(entries["curves"]):
+        (element,) = tomllib.loads((out / f"ross_{number + 1}.toml").read_text(encoding="utf-8")).values()
+        points = curve["points"]
+        assert element["kxy"] == [point["stiffness_xy"] for point in points]
+        for point in points:
+            scale = 50e-6 / point["load"]
+            assert point["dimensionless_stiffness_xx"] == pytest.approx(scale * point["stiffness_xx"])
+            damping = scale * point["rotation"] * point["damping_yy"]
+            assert point["dimensionless_damping_yy"] == pytest.approx(damping)
+            assert point["uncertainty"]["stiffness_xx"] > 0
+    assert [curve["points"][0]["load"] for curve in entries["curves"]] == pytest.approx([5e3, 10e3])
+
+
+def test_a_speed_without_a_film_is_left_out_with_a_warning(swept):
+    _, entries, _ = swept
+    assert all(len(curve["points"]) == 2 for curve in entries["curves"])
+    warnings = entries["provenance"]["warnings"]
+    assert len(warnings) == 2
+    assert "left out at 0.02 rpm: load" in warnings[0]
+
+
+def test_finished_points_are_used_again(swept):
+    out, entries, _ = swept
+    again = run("--out", out, "--loads", "5kN,10kN", "--speeds", "1000rpm,3000rpm", "--json")
+    found = json.loads(again.stdout)
+    assert found["numerics"]["points_found"] == 4
+    assert [curve["points"] for curve in found["curves"]] == [curve["points"] for curve in entries["curves"]]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--set", "load.force=0 N"], "load.force"),
+        (["--speeds", "0rpm"], "speeds: got 0.0"),
+        (["--frequency-ratio", "-1"], "--frequency-ratio: got -1.0"),
+        (["--loads", "1MN", "--speeds", "1rpm"], "load: got 1e+06 N"),
+    ],
+)
+def test_bad_input_is_refused_in_one_line(words, message, tmp_path):
+    done = run("--out", tmp_path / "out", *words)
+    assert done.exit_code == 2
+    assert message in " ".join(done.stderr.split())
+    assert "Traceback" not in done.stderr
+
+
+def test_a_shape_whose_wall_is_given_is_refused(tmp_path):
+    done = run("--out", tmp_path / "out", scene=SCENES / "journal.toml")
+    assert done.exit_code == 2
+    assert "geometry.shape: got 'journal'" in " ".join(done.stderr.split())
