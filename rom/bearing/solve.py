@@ -16,7 +16,8 @@ from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
 from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, converted, under_load
 from roughfilm.rom.bearing.film import Searched, smooth_films
-from roughfilm.rom.bearing.free.solve import closer, placed, solve_free
+from roughfilm.rom.bearing.free.evaluated import evaluated
+from roughfilm.rom.bearing.free.solve import solve_free
 from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.quantities import EXACT, FILM_OUTPUTS, Fields, Outputs
@@ -35,6 +36,7 @@ from roughfilm.rom.bearing.warnings import (
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio
 from roughfilm.rom.cavitation.evaluation.grids import grid_sequence, grid_warnings
 from roughfilm.rom.cavitation.evaluation.numerics import numerics_of
+from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Level, Solution, load_loops
 from roughfilm.rom.cavitation.solve import solve as balance
@@ -59,6 +61,7 @@ def solve(
     outputs: Outputs = FILM_OUTPUTS,
     searched: Callable[[Bearing], Searched] | None = None,
     films: FilmsOnGrid | None = None,
+    contact: Callable[[Bearing], ContactLaw] | None = None,
 ) -> Result:
     """Solve the film of a bearing on successively finer grids and estimate the uncertainty of its quantities.
 
@@ -72,6 +75,7 @@ def solve(
     outputs : the functions that evaluate the film.
     searched : searched(scene), the films among which that under a load is sought; by default those of a smooth wall.
     films : films(scene, cells), the films on a grid, of models with a contact load.
+    contact : contact(scene), the contact pressure over the film thickness, of these models.
 
     Raises
     ------
@@ -84,7 +88,8 @@ def solve(
     if isinstance(scene.geometry, MovingWall):
         with one_time("start"):
             load_loops(scene.wide)
-        among = searched(scene) if searched is not None and scene.load is not None else None
+        law = None if contact is None else contact(scene)
+        among = searched(scene) if searched is not None and scene.load is not None and law is None else None
         wall, cpu = time.perf_counter(), working_time()
         found = _free(
             scene,
@@ -93,6 +98,7 @@ def solve(
             outputs,
             known_from=None if among is None else among.known_from,
             ruptures=ruptures,
+            contact=law,
             progress=progress,
         )
     elif scene.load is None:
@@ -197,6 +203,7 @@ def _free(
     *,
     known_from: float | None,
     ruptures: bool,
+    contact: ContactLaw | None,
     progress: Progress,
 ) -> _Found:
     """The film of a bearing whose wall moves freely."""
@@ -205,28 +212,15 @@ def _free(
         request.resolution,
         film=film,
         ruptures=ruptures,
+        contact=contact,
         tolerance=min(request.tolerance, FILM_RESIDUAL),
         progress=progress,
     )
-    scenes, solutions = free.scenes, free.solutions
-    levels = tuple((solution, outputs.quantities(at, solution)) for at, solution in zip(scenes, solutions, strict=True))
-    of_factors: Mapping[str, float] = {}
-    if solutions[0].problem.shape.roughness is not None:
-        compared = min(1, len(levels) - 1)
-        at, (solution, quantities) = scenes[compared], levels[compared]
-        known = at if known_from is None else at.moved(at.geometry.at_film(known_from))
-        of_factors = outputs.factor_uncertainties(known, solution, quantities)
-        if scene.load is not None:
-            step = FILM_STEP * at.geometry.thinnest
-            one = free.films[compared]
-            moved = closer(one, free.instants[compared], -step, tolerance=FILM_RESIDUAL)
-            others = outputs.quantities(placed(one, moved), one.solution(moved))
-            values, near = ({name: one.value for name, one in of.items()} for of in (quantities, others))
-            of_factors = converted(of_factors, values, near, step)
+    found = evaluated(free, outputs, known_from=known_from)
     return _Found(
-        scene=scenes[0],
-        levels=levels,
-        of_factors=of_factors,
+        scene=free.scenes[0],
+        levels=found.levels,
+        of_factors=found.of_factors,
         solved=free.solved,
         balance=free.balance,
         films=len(free.solved),

@@ -5,6 +5,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.rounding import share
 from roughfilm.rom.bearing.corners import jumps
+from roughfilm.rom.bearing.free.lay import StraightFactors
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.quantities import scene_positions
 from roughfilm.rom.bearing.roughness import RoughSurface
@@ -45,6 +46,7 @@ def rupture_warnings(pressure: Array) -> list[str]:
 def window_warnings(scene: Bearing, solution: Solution) -> list[str]:
     """A warning if the flow factors are means over windows, whose scatter the uncertainty leaves out."""
     table = solution.problem.shape.roughness
+    table = table.factors if isinstance(table, StraightFactors) else table
     if not isinstance(table, FactorTable) or all(point.scatter is None for point in table.points):
         return []
     relative = table.scatter_above(scene.geometry.thinnest)

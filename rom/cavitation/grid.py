@@ -1,5 +1,6 @@
 """Nodes over the plane of a film, one at every break of its thickness, and their control volumes."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -58,6 +59,27 @@ def grid(shape: Shape, cells: tuple[int, int]) -> Grid:
         volume_y=volume_y,
         radius=y if shape.polar else np.ones_like(y),
     )
+
+
+def quarters(shape: Shape, grid: Grid) -> Iterator[tuple[Array, Array, Array]]:
+    """The positions x and y of the centres of the quarters of the control volumes, and their areas, m².
+
+    They lie inside cells, so that steps at nodes are exact. Control volumes of an infinitely wide film are divided into
+    halves. Where there is no film, the area is 0.
+    """
+    for x, length_x in _halves(grid.x, grid.spacing_x):
+        length_x = np.where(shape.is_idle(np.mod(x - grid.x[0], shape.length) + grid.x[0]), 0.0, length_x)
+        for y, length_y in [(grid.y, grid.volume_y)] if shape.wide else _halves(grid.y, grid.spacing_y):
+            area = length_x[:, None] * length_y * (y if shape.polar else 1.0)
+            along, across = np.broadcast_arrays(x[:, None], y)
+            yield along, across, np.broadcast_to(area, grid.shape)
+
+
+def _halves(places: Array, spacing: Array) -> Iterator[tuple[Array, Array]]:
+    """The centres and lengths of the halves of the control volumes before and behind the nodes."""
+    before = np.append(spacing[-1], spacing[:-1])
+    yield places - before / 4, before / 2
+    yield places + spacing / 4, spacing / 2
 
 
 def doubled(half: Grid) -> Grid:

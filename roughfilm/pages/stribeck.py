@@ -14,8 +14,8 @@ from roughfilm.figures.stribeck import Drawn
 from roughfilm.pages.render import render
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.mixed.asperities import Asperities
-from roughfilm.rom.bearing.mixed.film import MixedFilm
-from roughfilm.rom.bearing.mixed.stribeck import LOAD_TOLERANCE, StribeckCurve, StribeckPoint, curve_film
+from roughfilm.rom.bearing.mixed.film import MixedState
+from roughfilm.rom.bearing.mixed.stribeck import LOAD_TOLERANCE, StribeckCurve, StribeckPoint, curve_search
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.words.average import count_in_words
 from roughfilm.words.stribeck import SpeedScale, lift_off, number_of, own_point, speed_scale
@@ -50,8 +50,11 @@ def write_page(
     unit, factor = scale.unit, scale.factor
     middle = curves[len(curves) // 2]
     speeds, pressures = [point.speed for point in middle.points], [curve.pressure for curve in curves]
-    film = curve_film(scene, asperities, speeds, pressures, resolution, LOAD_TOLERANCE)
-    drawn = [drawn_film(film, point, f"{factor * point.speed:.3g} {unit}") for point in shown_points(middle)]
+    search = curve_search(scene, asperities, speeds, pressures, resolution, LOAD_TOLERANCE)
+    drawn = [
+        drawn_film(search.again(point.speed, point.pressure, point.separation), f"{factor * point.speed:.3g} {unit}")
+        for point in shown_points(middle)
+    ]
     columns = [column for column in COLUMNS if asperities is not None or column[2] not in OF_CONTACT]
     touching = None if asperities is None else asperities.touching
     render(
@@ -125,13 +128,12 @@ def shown_points(curve: StribeckCurve) -> list[StribeckPoint]:
     return [nearest, last] if last is not nearest else [nearest]
 
 
-def drawn_film(film: MixedFilm, point: StribeckPoint, title: str) -> Drawn:
+def drawn_film(mixed: MixedState, title: str) -> Drawn:
     """Pressures of film and contact at the nodes; a closed ring repeats its first line after the last."""
-    solution = film.at(point.separation + film.dip, point.speed)
-    grid, geometry = solution.solution.grid, film.scene.geometry
-    pressure = solution.solution.state.pressure + film.scene.lubricant.cavitation_pressure
-    contact = solution.contact.force / grid.areas
-    fraction = point.contact_share
+    grid, geometry = mixed.solution.grid, mixed.scene.geometry
+    pressure = mixed.solution.state.pressure + mixed.scene.lubricant.cavitation_pressure
+    contact = mixed.contact.force / grid.areas
+    fraction = mixed.contact_load / mixed.load
     title += f", {100 * fraction:.3g} % by contact" if fraction > 0 else ", no contact"
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     if not isinstance(geometry, Ring):

@@ -10,6 +10,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.film import FlooredFlowFactors, averaged_film
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.mixed.film import mixed_problem
 from roughfilm.rom.bearing.mixed.quantities import MIXED_OUTPUTS
@@ -128,7 +129,9 @@ def _has_texture(scene: Bearing) -> bool:
 def _has_side_flow(scene: Bearing) -> bool:
     if scene.wide or scene.supply:
         return False
-    return not (isinstance(scene.geometry, Ring) and scene.geometry.endless)
+    geometry = scene.geometry
+    joined = (isinstance(geometry, Ring) and geometry.endless) or (isinstance(geometry, Lobes) and geometry.joined)
+    return not joined
 
 
 def _depends_on_pressure(scene: Bearing) -> bool:
@@ -206,6 +209,7 @@ class VariantSolution:
 
     Attributes
     ----------
+    scene : the scene at its film on the finest grid.
     levels : values by name on the finest grid and on coarser ones, in the units of ``units``.
     cells : numbers of cells along a side of these grids.
     factor_uncertainties : uncertainties from flow factors and contact pressures, in the same units.
@@ -217,6 +221,7 @@ class VariantSolution:
     warnings : sentences.
     """
 
+    scene: Bearing
     levels: tuple[Mapping[str, float], ...]
     cells: tuple[float, ...]
     units: Mapping[str, str]
@@ -260,6 +265,7 @@ def at_film(variant: Variant, cells: int, progress: Progress = silent) -> Varian
     quantities = outputs.quantities(scene, solution)
     rough, grids = problem.shape.roughness is not None, grid_sequence(solution)
     return VariantSolution(
+        scene=scene,
         levels=tuple({n: q.value for n, q in outputs.quantities(scene, one).items()} for one in grids),
         cells=tuple(cells_of(one) for one in grids),
         units={name: quantity.unit for name, quantity in quantities.items()},

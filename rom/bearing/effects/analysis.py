@@ -7,6 +7,7 @@ from roughfilm.contact.foundation.brief import brief
 from roughfilm.rom.bearing.effects.ablation import EFFECTS, Amount, Variant, at_film, effects_of
 from roughfilm.rom.bearing.effects.contributions import EffectStudy, study_effects
 from roughfilm.rom.bearing.effects.explanation import EffectModel, effect_models
+from roughfilm.rom.bearing.effects.free_wall import solved_freely
 from roughfilm.rom.bearing.effects.inertia import (
     FULL,
     InertiaAdded,
@@ -16,6 +17,7 @@ from roughfilm.rom.bearing.effects.inertia import (
 )
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.equilibrium.expected import expected_film
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Model, Progress, silent
@@ -90,20 +92,28 @@ def analyse_effects(scene: Bearing, cells: int, models: Sequence[Model], progres
     if scene.asperities is not None:
         asperities_of(scene, lambda done, words: progress(0.4 * done, f"asperities: {words}"))
     pressure, loaded = scene.load_pressure, None
-    base = scene if pressure is None else scene.at_film(scene.geometry.film or expected_film(scene).thickness)
+    moves = isinstance(scene.geometry, MovingWall)
+    if pressure is None:
+        base = scene
+    elif moves:
+        base = scene.moved(scene.geometry)
+    else:
+        base = scene.at_film(scene.geometry.film or expected_film(scene).thickness)
     fraction = 0.6 if pressure is None else 0.3
     if pressure is not None:
         load = pressure
         loaded = study_effects(
-            base,
-            lambda variant, inner: under_load(variant, load, cells, inner),
+            scene if moves else base,
+            lambda variant, inner: (
+                solved_freely(variant, cells, inner) if moves else under_load(variant, load, cells, inner)
+            ),
             lambda done, words: progress(0.4 + fraction * done, f"under load, {words}"),
         )
         if scene.geometry.film is None:
-            base = scene.at_film(loaded.whole.values["film"])
+            base = loaded.whole.scene
     at = study_effects(
         base,
-        lambda variant, inner: at_film(variant, cells, inner),
+        lambda variant, inner: (solved_freely if moves else at_film)(variant, cells, inner),
         lambda done, words: progress(1 - fraction + fraction * done, words),
     )
     whole, has_inertia = Variant(scene=base), inertia_obstacle(scene) is None

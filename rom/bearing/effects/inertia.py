@@ -15,7 +15,7 @@ from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.bearing.effects.ablation import Amount, Variant, VariantSolution, difference
 from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.effects.wide_pad import WideFilm, wide_films
-from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.texture import Texture
 from roughfilm.rom.bearing.inertia import inertia
@@ -105,8 +105,8 @@ def inertia_obstacle(scene: Bearing) -> str | None:
         return "centrifugal forces on rings are not modelled"
     if scene.motion.approach != 0:
         return "inertia of walls that approach each other is not modelled"
-    if isinstance(scene.geometry, Lobes):
-        return "it is not modelled in lobes"
+    if isinstance(scene.geometry, MovingWall):
+        return "it is not modelled where a wall moves freely, as in lobes"
     if scene.supply:
         return "it is not modelled where lubricant is supplied inside of the film"
     if scene.motion.speed == 0:

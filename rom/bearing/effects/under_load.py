@@ -171,6 +171,7 @@ def under_load(variant: Variant, pressure: float, cells: int, progress: Progress
         step = FILM_STEP * state.scene.geometry.thinnest
         of_factors = converted(own, state.values, found.thicker.values, step)
     return VariantSolution(
+        scene=here.scene,
         levels=tuple(state.values for state in found.states),
         cells=tuple(cells_of(state.solution) for state in found.states),
         units={name: quantity.unit for name, quantity in here.quantities.items()},

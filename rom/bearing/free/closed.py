@@ -9,10 +9,14 @@ from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.quantities import scene_positions
 from roughfilm.rom.bearing.totals.pads import unloaded
+from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Instant
 
 CLOSEST = 1e-4
 """Least film over the clearance below which no equilibrium is sought."""
+
+CLOSEST_CONTACT = 2e-3
+"""Distance from the smallest known separation of walls that touch, over that of first contact from it."""
 
 CLOSEST_PAD = 1e-2
 """The same for pads that carry no load, and over the film of a pad about its pivot that narrows to half."""
@@ -26,6 +30,9 @@ EVEN = 0.5
 
 def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
     """The reason why there is no equilibrium, if a film has become too thin; else None."""
+    contact = film.solved.contact
+    if contact is not None:
+        return _beyond_contact(film, instant, force, contact)
     thickness, geometry, x = instant.faces.thickness, film.scene.geometry, film.solved.grid.x
     least = float(thickness.min())
     pads = isinstance(geometry, Lobes) and geometry.pivot is not None
@@ -60,4 +67,16 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
     return InputError(
         f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; lower the load, or "
         "raise the speed or the viscosity"
+    )
+
+
+def _beyond_contact(film: FreeFilm, instant: Instant, force: Array, contact: ContactLaw) -> InputError | None:
+    """The reason why there is no equilibrium if the walls come nearly as close as their contact is known for."""
+    if film.solved.room(instant.place) >= CLOSEST_CONTACT * (contact.touching - contact.closest):
+        return None
+    size, pressed = (np.hypot(*one[:2]) for one in (force, film.solved.contact_at(instant.place).force))
+    return InputError(
+        f"load: got {size:.6g} N; at a separation of {contact.closest:.4g} m, the smallest whose contact pressure is "
+        f"known, the asperities carry {pressed:.4g} N and the film too little; lower the load, or make a table with "
+        "larger loads"
     )

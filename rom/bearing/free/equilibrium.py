@@ -100,25 +100,32 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
 
 
 def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) -> Instant:
-    """The end of the motion without mass from a film."""
-    solved, count = film.solved, force.size
+    """The end of the motion without mass from a film.
+
+    At rest the last step may be a long one: nothing determines how far the cavities of a steady film would be filled.
+    """
+    solved, count, speed = film.solved, force.size, film.solved.problem.speed
+    time, shaft = 1 / _rate(film), isinstance(film.scene.geometry, Shaft)
+    step = FIRST_STEP * time
     given = Drive(
-        speed=solved.problem.speed,
+        speed=speed,
         force=force,
         stiffness=np.zeros((count, count)),
         free=np.zeros(count, dtype=bool),
+        storage=(0.0, 0.0) if speed or not film.free.any() else (1 / time, held(solved, start) / time),
     )
     instant = settled(solved, start, given, tolerance=tolerance)
     if not film.free.any():
         return instant
-    time, shaft = 1 / _rate(film), isinstance(film.scene.geometry, Shaft)
-    step = FIRST_STEP * time
     for _ in range(MAX_STEPS):
         last = step >= LAST_STEP * time
-        try:
-            following = _moved(film, instant, force, 0.0 if last else 1 / step, tolerance)
-        except (ConvergenceError, FloatingPointError):
-            following = None
+        following = None
+        for rate in ((0.0,) if speed else (0.0, 1 / step)) if last else (1 / step,):
+            try:
+                following = _moved(film, instant, force, rate, tolerance)
+            except (ConvergenceError, FloatingPointError):
+                continue
+            break
         move = np.inf if following is None else _move(film, instant, following)
         if following is None or (move > MAX_MOVE and step > SHORT_STEP * time):
             step /= GROWTH**2

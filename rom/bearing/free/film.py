@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.equilibrium.expected import fed_film
+from roughfilm.rom.bearing.free.lay import straight
 from roughfilm.rom.bearing.free.walls import bearing_at
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
@@ -18,6 +19,7 @@ from roughfilm.rom.bearing.geometry.rigid import MovingWall, RigidWall
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.supply.patches import in_the_middle
 from roughfilm.rom.cavitation.grid import doubled, grid
+from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Instant, full_film
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import State, Values
@@ -104,6 +106,7 @@ def free_film(
     *,
     film: Callable[[Bearing], Problem] = Bearing.problem,
     ruptures: bool = True,
+    contact: ContactLaw | None = None,
     wall: RigidWall | None = None,
 ) -> FreeFilm:
     """The film of a bearing on about ``cells`` equal cells along and across.
@@ -112,14 +115,17 @@ def free_film(
     ----------
     film : film(scene), the problem that the model solves.
     ruptures : whether the film cavitates.
+    contact : the contact pressure of the walls over the film thickness; None of walls that do not touch.
     wall : the coordinates of the wall; by default those of a shaft in lobes or of a pad about a pivot.
     """
     if wall is None:
-        moving = _started(scene)
+        moving = _started(scene, contact)
         wall, placed = moving.wall, scene.moved(moving.at(moving.wall.place))
     else:
         placed = bearing_at(scene, wall.place)
     problem = film(placed)
+    if problem.shape.roughness is not None and scene.roughness is not None:
+        problem = straight(problem, scene.roughness.rms)
     even = _even(scene, problem.shape)
     wall = wall.first(2) if "slope_y" in wall.names and (even or problem.shape.wide) else wall
     modes, shaped = wall.normals, problem.shape.thickness
@@ -149,6 +155,7 @@ def free_film(
         inflows=(*gaps, *at_rest.inflows),
         ambient=-scene.lubricant.cavitation_pressure,
         ruptures=ruptures,
+        contact=contact,
     )
     solved = whole if half is None or upper is None else replace(whole, problem=half, grid=upper, halved=True)
     return FreeFilm(scene=scene, wall=wall, whole=whole, solved=solved, turned=turned)
@@ -208,10 +215,10 @@ def load_of_scene(scene: Bearing) -> Array:
     return force
 
 
-def _started(scene: Bearing) -> Lobes | Pivoted | PivotedSector:
+def _started(scene: Bearing, contact: ContactLaw | None) -> Lobes | Pivoted | PivotedSector:
     """The shape from which the equilibrium is sought: a shaft as given or in the middle, a pad that narrows to half.
 
-    Infinitely wide such pads carry 0.16 η u L²/h².
+    Infinitely wide such pads carry 0.16 η u L²/h². Walls that may touch start apart.
     """
     geometry, pressure = scene.geometry, scene.load_pressure
     assert isinstance(geometry, Lobes | Pivoted | PivotedSector)
@@ -221,4 +228,5 @@ def _started(scene: Bearing) -> Lobes | Pivoted | PivotedSector:
     sheared = scene.lubricant.viscosity * abs(scene.motion.speed) * geometry.length
     film = max(math.sqrt(WEDGE_LOAD * share * sheared / pressure), fed_film(scene), FIRST_FILM * geometry.length)
     film = min(film, MAX_FIRST_FILM * geometry.length)
+    film = film if contact is None else max(film, contact.touching)
     return geometry.started(film, reverse=scene.motion.speed < 0)

@@ -5,12 +5,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.rom.bearing.equilibrium.estimate import CONTACT_FILM
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
+from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
+from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Level, Solution, coarsening
@@ -78,6 +83,7 @@ def solve_free(
     *,
     film: Callable[[Bearing], Problem] = Bearing.problem,
     ruptures: bool = True,
+    contact: ContactLaw | None = None,
     tolerance: float,
     progress: Progress = silent,
 ) -> FreeSolution:
@@ -90,6 +96,7 @@ def solve_free(
     cells : number of cells along the film of the finest grid; across it there are half as many.
     film : film(scene), the problem that the model solves.
     ruptures : whether the film cavitates.
+    contact : the contact pressure of the walls over the film thickness; None of walls that do not touch.
     tolerance : residual at which a film is solved.
 
     Raises
@@ -106,7 +113,7 @@ def solve_free(
     solved: list[Level] = []
     for number, count in enumerate(counts):
         progress(sum(work[:number]) / sum(work), f"{count[0]} × {count[1]} cells")
-        one = free_film(scene, count, film=film, ruptures=ruptures)
+        one = free_film(scene, count, film=film, ruptures=ruptures, contact=contact)
         start = refined(films[-1], instants[-1], one) if films else None
         try:
             instant = equilibrium(one, start, tolerance=tolerance)
@@ -123,12 +130,24 @@ def solve_free(
     return FreeSolution(films=tuple(films[::-1]), instants=tuple(instants[::-1]), solved=tuple(solved))
 
 
+def stiffness_of(film: FreeFilm, instant: Instant) -> Array:
+    """The stiffness of film and contact; that of contact alone at rest, where no flow determines the cavities."""
+    try:
+        return coefficients(film.solved, instant, speed=film.solved.problem.speed).stiffness
+    except ConvergenceError:
+        return film.solved.contact_at(instant.place).stiffness
+
+
+def approach(film: FreeFilm, instant: Instant, stiffness: Array) -> Array:
+    """The change of the coordinates by a growing load that moves the wall by at most 1 m anywhere."""
+    force = film.solved.force(instant.state.pressure) + film.solved.contact_at(instant.place).force
+    moved = np.linalg.lstsq(stiffness, -force, rcond=None)[0]
+    return np.asarray(moved / float(np.abs(film.solved.at_nodes @ moved).max()))
+
+
 def closer(film: FreeFilm, instant: Instant, step: float, *, tolerance: float) -> Instant:
     """The film whose wall has moved by ``step``, m, in the direction in which a growing load moves it."""
-    stiffness = coefficients(film.solved, instant, speed=film.solved.problem.speed).stiffness
-    count = instant.place.size
-    moved = np.linalg.lstsq(stiffness, -film.solved.force(instant.state.pressure), rcond=None)[0]
-    moved *= step / float(np.abs(film.solved.at_nodes @ moved).max())
+    moved, count = step * approach(film, instant, stiffness_of(film, instant)), instant.place.size
     drive = Drive(
         speed=film.solved.problem.speed,
         force=np.zeros(count),
@@ -139,6 +158,22 @@ def closer(film: FreeFilm, instant: Instant, step: float, *, tolerance: float) -
 
 
 def expected_place(scene: Bearing) -> tuple[float, ...]:
-    """The coordinates of the wall under the load of a scene, on a coarse grid and with smooth walls."""
-    film = free_film(scene, (COARSE_CELLS, COARSE_CELLS // ACROSS))
-    return tuple(float(value) for value in equilibrium(film, None, tolerance=1e-8).place)
+    """The coordinates of the wall under the load of a scene, on a coarse grid and with smooth walls.
+
+    Where asperities touch, the film is at least ``CONTACT_FILM`` times the rms height.
+    """
+    film, geometry = free_film(scene, (COARSE_CELLS, COARSE_CELLS // ACROSS)), scene.geometry
+    assert isinstance(geometry, Lobes | Pivoted | PivotedSector)
+    least = 0.0 if scene.asperities is None or scene.roughness is None else CONTACT_FILM * scene.roughness.rms
+    try:
+        place = equilibrium(film, None, tolerance=1e-8).place
+    except (InputError, ConvergenceError):
+        if not least:
+            raise
+        place = film.wall.place.copy()
+        if isinstance(geometry, Lobes):
+            place[:2] = geometry.clearance * film.load[:2] / np.hypot(*film.load[:2])
+    there = geometry.at(place)
+    if there.thinnest < least:
+        place = there.at_film(min(least, geometry.widest)).wall.place[: place.size]
+    return tuple(float(value) for value in place)

@@ -4,9 +4,8 @@ import time
 from dataclasses import replace
 
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.asperities import Asperities
-from roughfilm.rom.bearing.mixed.stribeck import LOAD_TOLERANCE, RESOLUTION, StribeckPoint, mixed_film, stribeck_point
+from roughfilm.rom.bearing.mixed.stribeck import LOAD_TOLERANCE, RESOLUTION, StribeckPoint, curve_search, stribeck_point
 from roughfilm.rom.bearing.scene import Bearing
 
 
@@ -38,6 +37,8 @@ def equilibrium(
     if not 0 < pressure < float("inf"):
         raise InputError(f"load: got {pressure!r} Pa; it must be above 0 and finite")
     cpu = time.process_time()
-    film = mixed_film(scene, asperities, resolution, tolerance)
-    state = balanced(FilmsAtSpeed(film=film, speed=scene.motion.speed), pressure, tolerance=tolerance)
-    return replace(stribeck_point(state, film, pressure), cpu_s=time.process_time() - cpu)
+    if scene.asperities is None:
+        raise InputError("scene.asperities: is missing; give the solids of the walls")
+    search = curve_search(scene, asperities, [scene.motion.speed], [pressure], resolution, tolerance)
+    state = search.solved(scene.motion.speed, pressure, ())
+    return replace(stribeck_point(state, search, pressure), cpu_s=time.process_time() - cpu)

@@ -8,14 +8,14 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.film import FlooredFlowFactors
-from roughfilm.rom.bearing.geometry.journal import Journal
+from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.mixed.asperities import Asperities
-from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load, quarters
+from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load
 from roughfilm.rom.bearing.quantities import load_of, nominal_area, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.evaluation.friction import friction
-from roughfilm.rom.cavitation.grid import Grid, grid
+from roughfilm.rom.cavitation.grid import Grid, grid, quarters
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
@@ -102,11 +102,6 @@ class MixedFilm:
         """The shape of the film at the reference film thickness."""
         return self.scene.geometry.at_film(self._reference).film_shape()
 
-    @property
-    def boundary_friction(self) -> float:
-        """The coefficient of boundary friction; 0 without asperities."""
-        return 0.0 if self.scene.asperities is None else self.scene.asperities.friction
-
     @cached_property
     def area(self) -> float:
         """The nominal area, m² (m if infinitely wide)."""
@@ -164,8 +159,8 @@ class MixedFilm:
     def _contact_heights(self) -> tuple[Array, Array]:
         """The distinct separations minus the film thickness where contact is possible, m, and their areas, m²."""
         points = list(quarters(self._shape, self.grid))
-        above = np.concatenate([separation.ravel() for separation, _ in points]) - self._reference
-        areas = np.concatenate([area.ravel() for _, area in points])
+        above = np.concatenate([self._shape.thickness(x, y).ravel() for x, y, _ in points]) - self._reference
+        areas = np.concatenate([area.ravel() for _, _, area in points])
         low = above < self.asperities.touching - self.asperities.closest
         heights, which = np.unique(np.maximum(above[low], -self.dip), return_inverse=True)
         merged: Array = np.bincount(which, weights=areas[low], minlength=heights.size).astype(np.float64)
@@ -174,7 +169,7 @@ class MixedFilm:
     def contact_load(self, film: float) -> float:
         """The load of the asperities at a film thickness, N."""
         scene = self.scene_at(film, 0.0)
-        if not isinstance(scene.geometry, Journal):
+        if not isinstance(scene.geometry, Shaft):
             above, areas = self._contact_heights
             return float((areas * self.asperities.contact_pressure(film + above)).sum())
         force = asperity_load(scene.geometry.film_shape(), self.grid, self.asperities).force

@@ -124,5 +124,5 @@ def searched_films(scene: Bearing) -> Searched:
     return Searched(film=film_of_scene, closest=asperities.closest, first=first, averaged=True)
 
 
-solve_mixed = partial(solve, outputs=MIXED_OUTPUTS, films=mixed_films)
+solve_mixed = partial(solve, outputs=MIXED_OUTPUTS, films=mixed_films, contact=asperities_of)
 """The solver of the model ``mixed``."""

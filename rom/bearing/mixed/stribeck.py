@@ -3,21 +3,19 @@
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from math import exp, inf
+from math import inf
 
 import numpy as np
-import scipy
 
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.rom.bearing.equilibrium.balance import STEEPNESS, FilmsAtSpeed, balanced, robustly_balanced
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
-from roughfilm.rom.bearing.mixed.lift_off import lift_off_speed
+from roughfilm.rom.bearing.mixed.search import Search, SeparationSearch, Slopes
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
-from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.solve import load_loops
 from roughfilm.rom.ladder.model import Progress, silent
 
@@ -42,17 +40,8 @@ MAX_TOLERANCE = 1e-2
 UNCERTAINTY_SPEEDS = 5
 """Number of speeds at which the uncertainty is estimated with half as many cells, besides that of the scene."""
 
-EXTRAPOLATION_POINTS = 4
-"""Number of points from which the next separation is extrapolated."""
-
-MAX_LOG_STEP = 0.4
-"""Largest change of the logarithm of the separation by extrapolation."""
-
 LIFT_OFF_SPEED_RATIO = 100.0
 """Guess of the lift-off speed over the speed at which 6ηuL/α² equals the load, if no requested speed lifts the wall."""
-
-SEPARATION_STEP = 1e-3
-"""Step over which the slope of the contact load is taken, over the separation of first contact."""
 
 UNCERTAIN = (
     "separation",
@@ -188,38 +177,32 @@ def stribeck(
         If a film or the load does not converge.
     """
     ordered = _checked(speeds, pressures)
-    film = curve_film(scene, asperities, ordered, pressures, resolution, tolerance)
+    search = curve_search(scene, asperities, ordered, pressures, resolution, tolerance)
     touches = scene.asperities is not None
     done = {(point.pressure, point.speed): point for point in known}
-    coarse = replace(film, cells=resolution // 2)
+    coarse = search.coarser()
     estimated = {ordered[i] for i in np.linspace(0, len(ordered) - 1, UNCERTAINTY_SPEEDS).round().astype(int)}
     estimated |= {abs(scene.motion.speed)}
-    states: dict[float, State] = {}
     curves: dict[float, list[StribeckPoint]] = {pressure: [] for pressure in sorted(pressures)}
     refused: dict[float, InputError | ConvergenceError] = {}
     load_loops(scene.wide)
     for number, speed in enumerate(ordered):
-        fine, half = FilmsAtSpeed(film=film, speed=speed), FilmsAtSpeed(film=coarse, speed=speed)
         for count, (pressure, points) in enumerate(curves.items()):
             words = f"{speed:.4g} m/s, {pressure * 1e-6:.4g} MPa"
             progress((number + count / len(curves)) / len(ordered), words)
             before = point = done.get((pressure, speed))
             cpu = time.process_time()
             if point is None:
-                guess, start = _extrapolated(points, film, fine), states.get(pressure)
-                fine.steepness = half.steepness = STEEPNESS if number == 0 else fine.steepness
                 try:
-                    search = balanced if touches or start is not None else robustly_balanced
-                    state = search(fine, pressure, tolerance=tolerance, guess=guess, start=start)
+                    state = search.solved(speed, pressure, [(one.speed, one.separation) for one in points])
                 except (InputError, ConvergenceError) as error:
                     if touches:
                         raise
                     refused[pressure] = error
                     continue
-                states[pressure] = state.solution.state
-                point = stribeck_point(state, film, pressure)
+                point = stribeck_point(state, search, pressure)
             if speed in estimated and not point.uncertainty:
-                point = replace(point, uncertainty=_uncertainty(point, film, half, fine, tolerance))
+                point = replace(point, uncertainty=_uncertainty(point, search, coarse))
             if point is not before:
                 point = replace(point, cpu_s=point.cpu_s + time.process_time() - cpu)
                 keep(point)
@@ -232,59 +215,68 @@ def stribeck(
             finished.append(StribeckCurve(pressure=pressure, points=tuple(points), lift_off=NEVER_TOUCHING))
             continue
         progress(1.0, f"lift-off at {pressure * 1e-6:.4g} MPa")
-        near_speed = _lift_off_guess(points, film)
-        speed, coarse_speed = (lift_off_speed(one, pressure, near_speed, tolerance=tolerance) for one in (film, coarse))
-        of_factors = film.asperities.factor_uncertainty(film.asperities.touching) * speed
+        near_speed = _lift_off_guess(points, search)
+        speed, coarse_speed = (one.lift_off(pressure, near_speed) for one in (search, coarse))
+        of_factors = search.asperities.factor_uncertainty(search.asperities.touching) * speed
         lift_off = LiftOff(speed=speed, uncertainty=abs(speed - coarse_speed) + of_factors)
         finished.append(StribeckCurve(pressure=pressure, points=tuple(points), lift_off=lift_off))
     return tuple(finished)
 
 
-def curve_film(
+def curve_search(
     scene: Bearing,
     asperities: Asperities | None,
     speeds: Sequence[float],
     pressures: Sequence[float],
     resolution: int,
     tolerance: float,
-) -> MixedFilm:
+) -> Search:
     """The films of a curve: mixed ones of a scene with asperities, and those of walls that never touch of others.
+
+    The search is over the separation of the walls, or over the place of a wall that moves freely.
 
     Raises
     ------
     InputError
         If the resolution or tolerance is out of range, or a speed is 0 without asperities.
     """
-    if scene.asperities is not None:
-        return mixed_film(scene, asperities, resolution, tolerance)
     _check_range(resolution, tolerance)
-    if min(speeds) == 0:
+    if scene.asperities is not None:
+        wall = asperities_of(scene) if asperities is None else asperities
+        film = MixedFilm(scene=scene, asperities=wall, cells=resolution, accuracy=tolerance)
+    elif min(speeds) == 0:
         raise InputError(
             "speeds: got 0; without sliding a film without asperities carries no load, give speeds above 0 or add "
             "[asperities] to the scene"
         )
-    from roughfilm.rom.bearing.mixed.parted import parted_film  # only curves without asperities need it
+    else:
+        from roughfilm.rom.bearing.mixed.parted import parted_film  # only curves without asperities need it
 
-    return parted_film(scene, speeds, pressures, resolution, tolerance)
+        film = parted_film(scene, speeds, pressures, resolution, tolerance)
+    if not isinstance(scene.geometry, MovingWall):
+        return SeparationSearch(film=film)
+    from roughfilm.rom.bearing.mixed.place import PlaceSearch  # only walls that move freely need it
+
+    return PlaceSearch(
+        scene=scene,
+        asperities=film.asperities,
+        cells=resolution,
+        residual=film.residual,
+        accuracy=tolerance,
+        film=film.film,
+    )
 
 
-def _uncertainty(
-    point: StribeckPoint,
-    film: MixedFilm,
-    half: FilmsAtSpeed[MixedState],
-    fine: FilmsAtSpeed[MixedState],
-    tolerance: float,
-) -> dict[str, float]:
+def _uncertainty(point: StribeckPoint, search: Search, coarse: Search) -> dict[str, float]:
     """The uncertainty of a point from a grid with half as many cells; empty if that grid does not carry the load."""
-    coarse = half.film
-    assert isinstance(coarse, MixedFilm)
     try:
-        near = balanced(half, point.pressure, tolerance=tolerance, guess=point.separation + film.dip)
+        near = coarse.solved(point.speed, point.pressure, [(point.speed, point.separation)])
     except (InputError, ConvergenceError):
-        if film.scene.asperities is not None:
+        if search.scene.asperities is not None:
             raise
         return {}
-    return uncertainties(point, stribeck_point(near, coarse, point.pressure), film, fine)
+    slopes = search.slopes(point.speed, point.pressure, point.separation, point.film_load)
+    return uncertainties(point, stribeck_point(near, coarse, point.pressure), search, slopes)
 
 
 def _check_range(resolution: int, tolerance: float) -> None:
@@ -297,31 +289,16 @@ def _check_range(resolution: int, tolerance: float) -> None:
         )
 
 
-def mixed_film(scene: Bearing, asperities: Asperities | None, resolution: int, tolerance: float) -> MixedFilm:
-    """The mixed film of a scene with asperities.
-
-    Raises
-    ------
-    InputError
-        If the scene has no asperities, or the resolution or tolerance is out of range.
-    """
-    if scene.asperities is None:
-        raise InputError("scene.asperities: is missing; give the solids of the walls")
-    _check_range(resolution, tolerance)
-    wall = asperities_of(scene) if asperities is None else asperities
-    return MixedFilm(scene=scene, asperities=wall, cells=resolution, accuracy=tolerance)
-
-
-def stribeck_point(state: MixedState, film: MixedFilm, pressure: float) -> StribeckPoint:
+def stribeck_point(state: MixedState, search: Search, pressure: float) -> StribeckPoint:
     """The point of a mixed film under a load over the nominal area, Pa, without its CPU time."""
-    separation = state.scene.geometry.thinnest - film.dip
-    load = pressure * film.area
+    separation = state.scene.geometry.thinnest - search.dip
+    load = pressure * search.area
     lowest = state.scene.lubricant.cavitation_pressure
     return StribeckPoint(
         pressure=pressure,
         speed=state.scene.motion.speed,
         separation=separation,
-        least_gap=float(film.asperities.mean_gap(np.array([separation]))[0]),
+        least_gap=float(search.asperities.mean_gap(np.array([separation]))[0]),
         load=state.load,
         film_load=state.film_load,
         contact_load=state.contact_load,
@@ -350,47 +327,26 @@ def _checked(speeds: Sequence[float], pressures: Sequence[float]) -> list[float]
     return sorted(speeds)
 
 
-def _extrapolated(points: Sequence[StribeckPoint], walls: MixedFilm, at: FilmsAtSpeed[MixedState]) -> float | None:
-    """The film thickness at the next speed, m, extrapolated from the last points over the logarithm of the speed."""
-    if not points:
-        return None
-    dip = walls.dip
-    last = at.distance(points[-1].separation + dip)
-    before = [point for point in points if point.speed > 0][-EXTRAPOLATION_POINTS:]
-    if len(before) < 2:
-        return points[-1].separation + dip
-    speeds = np.log([point.speed for point in before])
-    distances = [at.distance(point.separation + dip) for point in before]
-    following = float(scipy.interpolate.BarycentricInterpolator(speeds, distances)(np.log(at.speed)))
-    return at.separation(min(max(following, last - MAX_LOG_STEP), last + MAX_LOG_STEP))
-
-
-def uncertainties(
-    point: StribeckPoint, other: StribeckPoint, walls: MixedFilm, at: FilmsAtSpeed[MixedState]
-) -> dict[str, float]:
+def uncertainties(point: StribeckPoint, other: StribeckPoint, search: Search, slopes: Slopes) -> dict[str, float]:
     """The uncertainty of each quantity: its change with half the cells, plus that of factors and contact pressures.
 
     At second order the change with half the cells is three times the remaining error. Errors δF and δC of the loads of
     film and asperities at constant separation change the separation under a constant load by δα = -(δF + δC)/(F' + C').
     """
-    asperities, here = walls.asperities, np.array([point.separation])
+    asperities, here, contacts = search.asperities, np.array([point.separation]), search.scene.asperities
     film, contact = point.film_load, point.contact_load
-    relative_factors = asperities.factor_uncertainty(point.separation)
+    relative_factors = asperities.factor_uncertainty(point.separation) + slopes.left_out
     film_error, contact_error = (
         relative_factors * abs(film),
         float(asperities.pressure_uncertainty(here)[0]) * abs(contact),
     )
-    place, step = point.separation + walls.dip, SEPARATION_STEP * walls.touching
-    shift = exp(at.distance(place))
-    film_slope = at.steepness * abs(film) / shift
-    contact_slope = (walls.contact_load(max(place - step, walls.closest)) - walls.contact_load(place)) / step
-    slope = film_slope + contact_slope
+    slope = slopes.film + slopes.contact
     of_separation = (film_error + contact_error) / slope if slope > 0 else 0.0
-    of_loads = (film_error * contact_slope + contact_error * film_slope) / slope if slope > 0 else 0.0
-    boundary = walls.boundary_friction
+    of_loads = (film_error * slopes.contact + contact_error * slopes.film) / slope if slope > 0 else 0.0
+    boundary = 0.0 if contacts is None else contacts.friction
     viscous = abs(point.friction - boundary * contact)
     relative_shear = asperities.friction_uncertainty(point.separation)
-    of_friction = boundary * of_loads + (relative_factors + relative_shear + of_separation / shift) * viscous
+    of_friction = boundary * of_loads + (relative_factors + relative_shear + of_separation / slopes.length) * viscous
     relative = of_loads / contact if contact > 0 else 0.0
     of_factors = {
         "separation": of_separation,
@@ -407,17 +363,17 @@ def uncertainties(
     return {name: abs(getattr(point, name) - getattr(other, name)) + of_factors.get(name, 0.0) for name in UNCERTAIN}
 
 
-def _lift_off_guess(points: Sequence[StribeckPoint], film: MixedFilm) -> float:
+def _lift_off_guess(points: Sequence[StribeckPoint], search: Search) -> float:
     """The smallest requested speed that lifts the wall, m/s.
 
     If there is none, the largest requested speed, but at least ``LIFT_OFF_SPEED_RATIO`` p α²/(6ηL).
     """
-    thick = film.asperities.touching
+    thick = search.asperities.touching
     lifted = [point.speed for point in points if point.separation >= thick and point.speed > 0]
     least = (
         LIFT_OFF_SPEED_RATIO
         * points[0].pressure
         * thick**2
-        / (6 * film.scene.lubricant.viscosity * film.scene.geometry.length)
+        / (6 * search.scene.lubricant.viscosity * search.scene.geometry.length)
     )
     return min(lifted) if lifted else max(*(point.speed for point in points), least)

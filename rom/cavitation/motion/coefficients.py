@@ -12,7 +12,7 @@ from roughfilm.rom.cavitation.motion.film import MovingFilm
 
 @dataclass(frozen=True, kw_only=True)
 class Coefficients:
-    """The force δF = -K δq - B δq̇ of a film on its coordinates, for slow small motions of all of them.
+    """The force δF = -K δq - B δq̇ of a film and of contact on its coordinates, for slow small motions of all of them.
 
     Attributes
     ----------
@@ -49,4 +49,5 @@ def coefficients(film: MovingFilm, at: Instant, *, speed: float) -> Coefficients
     by_place = (areas * (trial.fill + excess))[..., None] * film.at_nodes
     still = trial.respond(-trial.by_coordinates(central=True))
     moving = trial.respond(-(by_place + by_unknown[..., None] * still.change))
-    return Coefficients(stiffness=-trial.force_of(still), damping=-trial.force_of(moving))
+    stiffness = trial.contact.stiffness - trial.force_of(still)
+    return Coefficients(stiffness=stiffness, damping=-trial.force_of(moving))

@@ -11,6 +11,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, settle_bank
 from roughfilm.rom.cavitation.discretise import Faces
 from roughfilm.rom.cavitation.motion.bands import Bands
+from roughfilm.rom.cavitation.motion.contact import ContactForce
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import BALANCE_ROUNDOFF, Linear
@@ -18,10 +19,10 @@ from roughfilm.rom.cavitation.relaxation import relaxed
 from roughfilm.rom.cavitation.restricted import first_pressures
 
 DIFFERENCE = 1e-6
-"""Change of the film thickness over the least one, for derivatives by the coordinates."""
+"""Change of the film thickness over the least distance from the smallest one, for derivatives by the coordinates."""
 
 MAX_APPROACH = 0.6
-"""Largest fraction of the film thickness at a node that one step may close."""
+"""Largest fraction of the distance from the smallest film thickness that one step may close."""
 
 FORCE_TOLERANCE = 1e-9
 """Net force on a coordinate over the sum of the sizes of its parts at which the iteration stops."""
@@ -36,6 +37,9 @@ In the plane they follow a step only if it changed fewer nodes than all before, 
 move nodes to and fro; and everywhere only if no storage is negative, so that the balances form an M-function.
 """
 
+STALLED = 0.5
+"""Ratio of successive residuals from which on they are the round-off of the pressures, or nearly so."""
+
 LEAST_FLOW = 1e-3
 """Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
 
@@ -44,6 +48,9 @@ LEAST_PART = 1e-3
 
 COLUMNS_KEPT = 5
 """Number of steps for which the derivatives by the coordinates are kept: they change little from step to step."""
+
+CLOSED = 1e-9
+"""Distance from the smallest film thickness over that at the start below which the iteration stops."""
 
 ITERATIONS = 40
 """Largest number of Newton steps."""
@@ -117,6 +124,7 @@ class Trial:
     fill: Array
     kind: NDArray[np.int8]
     faces: Faces = field(init=False)
+    contact: ContactForce = field(init=False)
     network: Network = field(init=False)
     linear: Linear = field(init=False)
     largest: float = field(init=False)
@@ -127,6 +135,7 @@ class Trial:
         """Sample the film at the coordinates."""
         film, drive = self.film, self.drive
         self.faces = film.faces(self.place)
+        self.contact = film.contact_at(self.place)
         self.network = film.network(self.faces, self.pressures, speed=drive.speed, storage=drive.storage)
         return self
 
@@ -173,6 +182,22 @@ class Trial:
             given[row] = film.sides * float(self.linear.balance[film.covered[number]].sum()) - self._passed(number)[0]
         return given
 
+    def unbalanced(self, *, round_off: bool) -> tuple[float, float]:
+        """The largest balance over the largest flow through a face, and the sum of all over the flow through the film.
+
+        Parameters
+        ----------
+        round_off : whether balances below the round-off of the unknowns, and of the mean pressure of the load, count
+            as 0: at rest nothing else flows.
+        """
+        rest, excess = self.rest, float(np.abs(self.inflow_excess).max(initial=0.0))
+        if round_off:
+            loads = np.abs(self.drive.force) / np.abs(self.film.weights).sum(axis=0)
+            unknowns = np.where(self.kind == CAVITY, 1.0, np.abs(self.pressure) + loads.max(initial=0.0))
+            flows = np.abs(self.linear.centre) * unknowns + self.network.storage
+            rest = np.where(np.abs(rest) > BALANCE_ROUNDOFF * flows, rest, 0.0)
+        return max(float(np.abs(rest).max()), excess) / self.largest, abs(float(rest.sum())) / self.entering
+
     def _passed(self, number: int) -> tuple[float, float]:
         """The flow through the restrictor of an inflow, m³/s, and minus its derivative by the pressure behind it."""
         inflow = self.film.inflows[number]
@@ -181,22 +206,22 @@ class Trial:
 
     @property
     def pull(self) -> Array:
-        """The forces on the coordinates besides that of the film."""
-        return np.asarray(self.drive.force - self.drive.stiffness @ self.place)
+        """The forces on the coordinates besides that of the film, with that of contact."""
+        return np.asarray(self.drive.force + self.contact.force - self.drive.stiffness @ self.place)
 
     @property
     def sizes(self) -> Array:
         """The sum of the sizes of the parts of the force on each coordinate, bounded below; 1 without any force."""
         film = self.film
         above = np.abs(self.pressure - film.ambient)
-        sizes = above.ravel() @ np.abs(film.weights) + np.abs(self.drive.force)
+        sizes = above.ravel() @ np.abs(film.weights) + self.contact.sizes + np.abs(self.drive.force)
         least = LEAST_PART * film.sides * float((above * film.grid.areas).sum()) * film.reach
         sizes = np.maximum(sizes, least)
         return np.where(sizes > 0, sizes, 1.0)
 
     def by_coordinates(self, *, central: bool = False) -> Array:
         """The derivatives of the balances by the free coordinates, in the last axis, by differences."""
-        least, free = float(self.faces.thickness.min()), np.flatnonzero(self.drive.free)
+        least, free = self.film.room(self.place), np.flatnonzero(self.drive.free)
         columns = np.zeros((*self.network.shape, free.size))
         for column, number in enumerate(free):
             step = np.zeros(self.place.size)
@@ -252,7 +277,7 @@ class Trial:
         passed[:, 0] = [self._passed(number)[0] for number in self.film.restricted]
         response = self.respond(-np.concatenate([self.linear.balance[..., None], self.columns], axis=-1), passed)
         forces = self.force_of(response)[free]
-        matrix = forces[:, 1:] - self.drive.stiffness[np.ix_(free, free)]
+        matrix = forces[:, 1:] - (self.drive.stiffness + self.contact.stiffness)[np.ix_(free, free)]
         net_force = (self.film.force(self.pressure) + self.pull)[free] + forces[:, 0]
         places = _solved(matrix, -net_force)
         weights = np.append(1.0, places)
@@ -328,7 +353,7 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
     trial = trial_at(film, start, drive)
     free, whole, line = np.flatnonzero(drive.free), True, film.grid.shape[1] == 1
     residual = force_residual = fewest = np.inf
-    changed = 0
+    changed, unbalanced, open_by = 0, (np.inf, np.inf), CLOSED * film.room(trial.place)
     for iteration in range(limit + 1):
         with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
             trial.sample()
@@ -336,9 +361,10 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
                 fewest = np.inf if line else changed
                 trial.relax()
             trial.evaluate()
-        rest = trial.rest
-        unbalanced = max(float(np.abs(rest).max()), float(np.abs(trial.inflow_excess).max(initial=0.0)))
-        residual, imbalance = unbalanced / trial.largest, abs(float(rest.sum())) / trial.entering
+        before, unbalanced = unbalanced, trial.unbalanced(round_off=False)
+        if unbalanced[0] > STALLED * before[0]:
+            unbalanced = trial.unbalanced(round_off=True)
+        residual, imbalance = unbalanced
         least = max(tolerance, BALANCE_ROUNDOFF * float(trial.network.storage.max()) / trial.largest)
         net_force = np.abs(film.force(trial.pressure) + trial.pull) / trial.sizes
         force_residual = float(net_force[free].max(initial=0.0))
@@ -354,24 +380,27 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
                 faces=trial.faces,
                 network=trial.network,
                 balance=trial.linear.balance,
-                residual=residual,
+                residual=residual if residual <= tolerance else trial.unbalanced(round_off=True)[0],
                 force_residual=force_residual,
                 iterations=iteration,
             )
         change, pressures, places = trial.step()
         moved = np.zeros(trial.place.size)
         moved[free] = places
-        part = _admissible(film, trial.faces.thickness, moved) * _passable(trial, pressures)
+        part = MAX_APPROACH / max(film.closing(trial.place, moved), MAX_APPROACH) * _passable(trial, pressures)
         trial.place = trial.place + part * moved
         trial.pressures[list(film.restricted)] += part * pressures
         changed, whole = _advance(trial, part * change), part == 1
+        if not whole and film.room(trial.place) < open_by:
+            residual = np.inf
+            break
         if not whole or iteration % COLUMNS_KEPT == COLUMNS_KEPT - 1:
             trial.columns = None
     finite = np.isfinite(residual + force_residual)
     reason = (
         f"the residual is {residual:.1e} and the relative net force {force_residual:.1e} after {limit} steps"
         if finite
-        else "the pressures diverge"
+        else "the pressures diverge, or the walls meet"
     )
     raise ConvergenceError(
         f"motion: {reason}; take more cells or smaller steps",
@@ -407,12 +436,6 @@ def _passable(trial: Trial, change: Array) -> float:
                 break
             part /= 2
     return part
-
-
-def _admissible(film: MovingFilm, thickness: Array, moved: Array) -> float:
-    """The largest part, up to 1, of a change of the coordinates that closes no film by more than ``MAX_APPROACH``."""
-    closing = -(film.at_nodes @ moved) / thickness
-    return float(min(1.0, MAX_APPROACH / max(float(closing.max()), MAX_APPROACH)))
 
 
 def _advance(trial: Trial, change: Array) -> int:

@@ -1,7 +1,7 @@
 """A film between two rigid walls, one of which is displaced: its thickness is linear in a few coordinates."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,10 +11,14 @@ from numpy.typing import NDArray
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.cavitation.discretise import Faces, faces_of, network, positions
-from roughfilm.rom.cavitation.grid import Grid
+from roughfilm.rom.cavitation.grid import Grid, quarters
+from roughfilm.rom.cavitation.motion.contact import ContactForce, ContactLaw, contact_force
 from roughfilm.rom.cavitation.network import Network
 from roughfilm.rom.cavitation.problem import Inflow, Problem
 from roughfilm.rom.cavitation.shape import Shape
+
+TINY = float(np.finfo(float).tiny)
+"""Distance of walls, m, in place of one that is 0 or less by round-off."""
 
 Normal = Callable[[Array, Array], Array]
 """normal(x, y), the derivative ∂h/∂q of the film thickness by a coordinate, vectorised."""
@@ -33,6 +37,7 @@ class MovingFilm:
     ambient : pressure on the other sides of the walls above cavitation pressure, Pa.
     halved : whether y = low is a line of symmetry, through which nothing flows, in place of a side.
     ruptures : whether the film cavitates.
+    contact : the contact pressure over the film thickness; None of walls that do not touch.
     """
 
     problem: Problem
@@ -42,6 +47,7 @@ class MovingFilm:
     ambient: float = 0.0
     halved: bool = False
     ruptures: bool = True
+    contact: ContactLaw | None = None
 
     @cached_property
     def _sampled(self) -> tuple[Array, Array, list[tuple[int, ...]]]:
@@ -132,6 +138,67 @@ class MovingFilm:
     def force(self, pressure: Array) -> Array:
         """∫ (p - p_ambient) ∂h/∂q dA of each coordinate, N (N m of an angle), from p at the nodes, Pa."""
         return np.asarray((pressure - self.ambient).ravel() @ self.weights)
+
+    def contact_at(self, place: Array) -> ContactForce:
+        """The forces of the contact of the walls at coordinates q, with one point in each quarter of a control volume.
+
+        Raises
+        ------
+        InputError
+            If the walls are closer than the contact pressure is known for.
+        """
+        if self.contact is None:
+            zero = np.zeros(place.size)
+            return ContactForce(force=zero, stiffness=np.zeros((place.size, place.size)), sizes=zero)
+        rest, modes, weights = self._quarters
+        return contact_force(self.contact, rest + modes @ place, modes, weights)
+
+    @cached_property
+    def _quarters(self) -> tuple[Array, Array, Array]:
+        """h₀ and n at the points of the contact, and the force by a pressure there, which acts at the node, m²."""
+        shape = self.problem.shape
+        points = [
+            (shape.thickness(x, y)[area > 0], self.modes(x, y)[area > 0], (area[..., None] * self.at_nodes)[area > 0])
+            for x, y, area in quarters(shape, self.grid)
+        ]
+        rest, modes, weights = (np.concatenate(parts) for parts in zip(*points, strict=True))
+        return rest, modes, self.sides * weights
+
+    def room(self, place: Array) -> float:
+        """The least film thickness minus the smallest that has a solution, m, where the film is sampled.
+
+        The latter is 0, or with contact the smallest separation whose contact pressure is known.
+        """
+        return min(float(gap.min()) for gap, _ in self._gaps(place))
+
+    def closing(self, place: Array, moved: Array) -> float:
+        """The largest fraction of the distances of :meth:`room` that a change of the coordinates closes."""
+        return max(float((-(modes @ moved) / np.maximum(gap, TINY)).max()) for gap, modes in self._gaps(place))
+
+    def _gaps(self, place: Array) -> Iterator[tuple[Array, Array]]:
+        """The distances of :meth:`room` and ∂h/∂q: at the nodes, and with contact wherever the film is sampled.
+
+        The smallest separation of flattened walls may be as near between nodes as it is far from 0 at them.
+        """
+        if self.contact is None:
+            rest, modes = self._beside
+            yield rest + modes @ place, self.at_nodes
+            return
+        for rest, modes in (self._sampled[:2], self._between, self._quarters[:2]):
+            yield rest + modes @ place - self.contact.closest, modes
+
+    @cached_property
+    def _between(self) -> tuple[Array, Array]:
+        """h₀ and n in the middle between nodes along the film, where averaged roughness is sampled."""
+        x, y = np.meshgrid(self.grid.x + self.grid.spacing_x / 2, self.grid.y, indexing="ij")
+        return self.problem.shape.thickness(x, y), self.modes(x, y)
+
+    @cached_property
+    def _beside(self) -> tuple[Array, Array]:
+        """h₀ and n at the nodes, the mean over both sides of a step, as the film thickness has it."""
+        rest, modes, (shape, *_) = self._sampled
+        count = math.prod(shape)
+        return rest[:count].reshape(shape).mean(axis=0), modes[:count].reshape(*shape, -1).mean(axis=0)
 
     @cached_property
     def weights(self) -> Array:

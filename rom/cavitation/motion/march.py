@@ -299,18 +299,16 @@ def _guess(film: MovingFilm, course: Course, moving: Moving, given: Array, size:
     """
     last = moving.instant
     place = np.where(course.free, last.place, given)
-    thickness = last.faces.thickness + film.at_nodes @ (place - last.place)
-    least = float(thickness.min())
-    if least <= 0:
+    if film.room(place) <= 0:
         if course.free.any():
             return None
+        least = float((last.faces.thickness + film.at_nodes @ (place - last.place)).min())
         raise InputError(
             f"motion.place: got {given.tolist()} at the time {moving.now.time + size:.6g} s, where the film would be "
             f"{least:.3g} m thick; keep the walls apart"
         )
     moved = np.where(course.free, predicted(moving.past, size) - last.place, 0.0)
-    closing = float((-(film.at_nodes @ moved) / thickness).max())
-    return np.asarray(place + min(1.0, 0.5 / max(closing, 0.5)) * moved)
+    return np.asarray(place + 0.5 / max(film.closing(place, moved), 0.5) * moved)
 
 
 def _error(past: tuple[Known, ...], course: Course, order: int, longest: float) -> float:

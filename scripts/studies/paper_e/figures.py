@@ -74,7 +74,8 @@ def pressures(washers: Mapping[str, Washer]) -> Figure:
     for name, turns in product(names, SHOWN):
         one = washers[name]
         film = MixedFilm(scene=one.scene, asperities=one.asperities, cells=CELLS)
-        views[name, turns] = drawn_film(film, point_at(one, 1, turns), f"{name}, {turns:g} rpm")
+        point = point_at(one, 1, turns)
+        views[name, turns] = drawn_film(film.at(point.separation + film.dip, point.speed), f"{name}, {turns:g} rpm")
     scale = {"vmin": 0, "vmax": max(float(view.film.max()) for view in views.values()) / 1e6, "cmap": "viridis"}
     for axes, (turns, name) in zip(panels.ravel(), product(SHOWN, names), strict=True):
         view = views[name, turns]

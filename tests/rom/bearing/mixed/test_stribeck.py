@@ -14,7 +14,7 @@ from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.equilibrium import equilibrium
 from roughfilm.rom.bearing.mixed.film import MixedFilm
-from roughfilm.rom.bearing.mixed.lift_off import lift_off_speed
+from roughfilm.rom.bearing.mixed.search import SeparationSearch
 from roughfilm.rom.bearing.mixed.stribeck import stribeck
 from roughfilm.rom.ladder.request import Request
 
@@ -121,7 +121,7 @@ def test_lift_off_is_where_the_film_just_carries(tips):
     scene = tips.scene(LINEAR)
     film = MixedFilm(scene=scene, asperities=tips.table(), cells=512, accuracy=1e-9)
     slider = linear_slider(film=tips.touching, rise=1.5e-6, length=20e-3, speed=1.0, viscosity=0.1)
-    speed, twice = (lift_off_speed(film, pressure, 1e-3, tolerance=1e-9) for pressure in (1e6, 2e6))
+    speed, twice = (SeparationSearch(film=film).lift_off(pressure, 1e-3) for pressure in (1e6, 2e6))
     assert speed == pytest.approx(1e6 * 20e-3 / slider.load, rel=1e-5)
     assert twice == pytest.approx(2 * speed, rel=1e-8)
     result = equilibrium(at_speed(scene, speed), 1e6, resolution=512, tolerance=1e-9)
@@ -131,15 +131,15 @@ def test_lift_off_is_where_the_film_just_carries(tips):
 def test_what_floats_at_rest_and_what_never_lifts(tips):
     fed = tips.scene(PARALLEL, boundary={"inlet": {"pressure": "1 MPa"}})
     film = MixedFilm(scene=fed, asperities=tips.table(), cells=16)
-    assert lift_off_speed(film, 1e5, 1.0, tolerance=1e-6) == 0
+    assert SeparationSearch(film=film).lift_off(1e5, 1.0) == 0
     still = MixedFilm(scene=tips.scene(PARALLEL), asperities=tips.table(), cells=16)
-    assert math.isnan(lift_off_speed(still, 1e5, 1.0, tolerance=1e-6))
+    assert math.isnan(SeparationSearch(film=still).lift_off(1e5, 1.0))
 
 
 def test_all_is_continuous_through_lift_off(tips):
     scene = tips.scene(WASHER, **FED)
     film = MixedFilm(scene=scene, asperities=tips.table(), cells=32, accuracy=1e-10)
-    speed = lift_off_speed(film, 1e6, 0.5, tolerance=1e-10)
+    speed = SeparationSearch(film=film).lift_off(1e6, 0.5)
     slow, fast, faster = (equilibrium(at_speed(scene, speed * (1 + part)), 1e6, resolution=32, tolerance=1e-10) for part in (-1e-6, 1e-6, 1e-3))  # fmt: skip  # noqa: E501
     assert slow.separation < tips.touching < fast.separation
     assert slow.contact_load > 0 == fast.contact_load
