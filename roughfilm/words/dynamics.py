@@ -66,6 +66,8 @@ def answer_of(scene: Bearing, curve: DynamicCurve) -> str:
     mass = critical_mass(point)
     if mass in (STABLE, UNSTABLE):
         words = f"a rigid rotor is stable at {'any' if mass == STABLE else 'no'} mass {at}"
+    elif point.uncertainty.get("critical_mass", math.inf) >= point.numbers["critical_mass"]:
+        words = f"the critical mass of a rigid rotor is unknown on this grid {at}, take more cells"
     else:
         words = f"a rigid rotor is stable up to {mass} kg in the bearing, whirl ratio {whirl_ratio(point)}, {at}"
     return "; ".join(filter(None, [words, onset(scene, curve)]))

@@ -156,6 +156,7 @@ def free_film(
         ambient=-scene.lubricant.cavitation_pressure,
         ruptures=ruptures,
         contact=contact,
+        turns=wall.turns,
     )
     solved = whole if half is None or upper is None else replace(whole, problem=half, grid=upper, halved=True)
     return FreeFilm(scene=scene, wall=wall, whole=whole, solved=solved, turned=turned)

@@ -38,6 +38,8 @@ class MovingFilm:
     halved : whether y = low is a line of symmetry, through which nothing flows, in place of a side.
     ruptures : whether the film cavitates.
     contact : the contact pressure over the film thickness; None of walls that do not touch.
+    turns : whether each coordinate is the tilt of a pad, on which no pressure in the gaps beside it acts; by default
+        none is.
     """
 
     problem: Problem
@@ -48,6 +50,7 @@ class MovingFilm:
     halved: bool = False
     ruptures: bool = True
     contact: ContactLaw | None = None
+    turns: NDArray[np.bool_] | None = None
 
     @cached_property
     def _sampled(self) -> tuple[Array, Array, list[tuple[int, ...]]]:
@@ -203,7 +206,10 @@ class MovingFilm:
     @cached_property
     def weights(self) -> Array:
         """The force on each coordinate by a pressure at each node, m² (m³ of an angle), shape (nodes, coordinates)."""
-        return self.sides * self.grid.areas.reshape(-1, 1) * self.at_nodes.reshape(-1, len(self.normals))
+        areas = np.repeat(self.grid.areas[..., None], len(self.normals), axis=-1)
+        if self.problem.shape.idle and self.turns is not None:
+            areas[..., self.turns] = sum(area for _, _, area in quarters(self.problem.shape, self.grid))[..., None]
+        return self.sides * (areas * self.at_nodes).reshape(-1, len(self.normals))
 
     @cached_property
     def reach(self) -> Array:
