@@ -39,9 +39,9 @@ def onset(scene: Bearing, curve: DynamicCurve) -> str:
         return ""
     scale, rotor = speed_scale(scene), f"a rotor of {curve.onset.mass:.4g} kg"
     if math.isnan(curve.onset.rotation):
-        return f"{rotor} is unstable at all speeds from {_lowest(curve, scale)} on"
+        return f"{rotor} is unstable at all these speeds, from {_lowest(curve, scale)} on"
     if math.isinf(curve.onset.rotation):
-        return f"{rotor} is stable at all speeds"
+        return f"{rotor} is stable at all these speeds"
     factor = 60 / (2 * math.pi)
     speed = with_error(factor * curve.onset.rotation, factor * curve.onset.uncertainty)
     return f"{rotor} becomes unstable at {speed} rpm"

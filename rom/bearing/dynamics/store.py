@@ -172,7 +172,7 @@ def write_csv(path: Path, scene: Bearing, curves: Sequence[DynamicCurve]) -> Non
     unknown uncertainty is empty.
     """
     points = [point for curve in curves for point in curve.points]
-    operation, names = ("pressure", "load", "speed", "rotation"), tuple(points[0].numbers)
+    operation, names = ("pressure", "load", "speed", "rotation"), [name for name in UNITS if name in points[0].numbers]
     dimensionless = dimensionless_of(scene, points[0])
     heads = [f"{name} ({OPERATION[name]})" for name in operation]
     heads += [f"{name} ({UNITS[name]})" for name in names] + [f"{name} ± ({UNITS[name]})" for name in names]
@@ -180,7 +180,7 @@ def write_csv(path: Path, scene: Bearing, curves: Sequence[DynamicCurve]) -> Non
     lines = [", ".join(heads)]
     for point in points:
         row = [getattr(point, name) for name in operation]
-        row += [*point.numbers.values(), *(point.uncertainty[name] for name in names)]
+        row += [values[name] for values in (point.numbers, point.uncertainty) for name in names]
         row += dimensionless_of(scene, point).values()
         whole = len(operation) + len(names)
         texts = [repr(float(number)) for number in row]
@@ -201,9 +201,9 @@ def dimensionless_of(scene: Bearing, point: DynamicPoint) -> dict[str, float]:
     scale = geometry.clearance / point.load
     scales = {"stiffness": scale, "damping": scale * point.rotation}
     return {
-        f"dimensionless_{name}": scales[matrix] * value
-        for name, value in point.numbers.items()
-        if (matrix := name.partition("_")[0]) in scales
+        f"dimensionless_{name}": scales[matrix] * point.numbers[name]
+        for name in UNITS
+        if (matrix := name.partition("_")[0]) in scales and name in point.numbers
     }
 
 

@@ -208,7 +208,8 @@ class MovingFilm:
         """The force on each coordinate by a pressure at each node, m² (m³ of an angle), shape (nodes, coordinates)."""
         areas = np.repeat(self.grid.areas[..., None], len(self.normals), axis=-1)
         if self.problem.shape.idle and self.turns is not None:
-            areas[..., self.turns] = sum(area for _, _, area in quarters(self.problem.shape, self.grid))[..., None]
+            parts = [area for _, _, area in quarters(self.problem.shape, self.grid)]
+            areas[..., self.turns] = np.sum(parts, axis=0)[..., None]
         return self.sides * (areas * self.at_nodes).reshape(-1, len(self.normals))
 
     @cached_property

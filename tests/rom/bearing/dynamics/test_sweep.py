@@ -230,6 +230,10 @@ def test_tables_have_a_row_for_each_speed(curve, tmp_path):
     lines = (tmp_path / "dynamics.csv").read_text(encoding="utf-8").splitlines()
     assert lines[0].startswith("pressure (Pa), load (N), speed (m/s), rotation (rad/s), stiffness_xx (N/m)")
     assert len(lines) == 1 + len(curve.points)
+    first, *others = curve.points
+    known = replace(first, numbers=dict(reversed(first.numbers.items())))
+    write_csv(tmp_path / "resumed.csv", scene(), [replace(curve, points=(known, *others))])
+    assert (tmp_path / "resumed.csv").read_text(encoding="utf-8").splitlines() == lines
     write_ross(tmp_path / "ross.toml", scene(), curve)
     element = numbers_of(tmp_path / "ross.toml")
     assert element["frequency"] == [point.rotation for point in curve.points]
