@@ -277,10 +277,11 @@ class Bearing(Scene):
         if self.asperities is not None:
             self._can_touch(self.asperities)
         if self.motion.approach and isinstance(self.geometry, MovingWall):
-            moves = "pad that tilts" if isinstance(self.geometry, Tilting) else "shaft in lobes"
+            pad = isinstance(self.geometry, Tilting)
+            moves, remedy = ("pad that tilts", "") if pad else ("shaft in lobes", ", and take roughfilm march for it")
             raise ValueError(
                 f"motion.approach: got {self.motion.approach!r} m/s for a {moves}, which moves in several directions; "
-                "leave it out, and take roughfilm march for its motion"
+                f"leave it out{remedy}"
             )
         film, over_time = self.geometry.film, self.motion.over_time
         check_motion(self.geometry, over_time, self.body, loaded=self.load is not None)
@@ -316,6 +317,10 @@ class Bearing(Scene):
             raise ValueError(
                 "load.force: is that of the whole bearing, whose number of pads is unknown; give geometry.pads, or "
                 "load.pressure"
+            )
+        if load.angle != DOWN and not isinstance(self.geometry, Lobes):
+            raise ValueError(
+                f"load.angle: got one for the shape {self.geometry.shape!r}; only shafts in lobes have one"
             )
         if load.moment_x or load.moment_y:
             self._can_have_moments(load)

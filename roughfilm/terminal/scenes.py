@@ -18,8 +18,8 @@ def bearing_of(scene: Scene) -> Bearing:
     """The scene, if it is a bearing; InputError otherwise."""
     if not isinstance(scene, Bearing):
         raise InputError(
-            f"scene.kind: got {scene.kind!r}; curves over speed are those of a bearing "
-            "(scripts/examples/scenes/rough_washer.toml)"
+            f"scene.kind: got {scene.kind!r}; this command takes scenes of kind 'bearing', such as "
+            "scripts/examples/scenes/rough_washer.toml"
         )
     return scene
 

@@ -39,9 +39,9 @@ def onset(scene: Bearing, curve: DynamicCurve) -> str:
         return ""
     scale, rotor = speed_scale(scene), f"a rotor of {curve.onset.mass:.4g} kg"
     if math.isnan(curve.onset.rotation):
-        return f"{rotor} is unstable at all speeds from {_lowest(curve, scale)} on"
+        return f"{rotor} is unstable at all these speeds, from {_lowest(curve, scale)} on"
     if math.isinf(curve.onset.rotation):
-        return f"{rotor} is stable at all speeds"
+        return f"{rotor} is stable at all these speeds"
     factor = 60 / (2 * math.pi)
     speed = with_error(factor * curve.onset.rotation, factor * curve.onset.uncertainty)
     return f"{rotor} becomes unstable at {speed} rpm"
@@ -66,6 +66,8 @@ def answer_of(scene: Bearing, curve: DynamicCurve) -> str:
     mass = critical_mass(point)
     if mass in (STABLE, UNSTABLE):
         words = f"a rigid rotor is stable at {'any' if mass == STABLE else 'no'} mass {at}"
+    elif point.uncertainty.get("critical_mass", math.inf) >= point.numbers["critical_mass"]:
+        words = f"the critical mass of a rigid rotor is unknown on this grid {at}, take more cells"
     else:
         words = f"a rigid rotor is stable up to {mass} kg in the bearing, whirl ratio {whirl_ratio(point)}, {at}"
     return "; ".join(filter(None, [words, onset(scene, curve)]))

@@ -161,6 +161,7 @@ def free_film(
         ruptures=ruptures,
         contact=contact,
         closest=closest,
+        turns=wall.turns,
     )
     solved = whole if half is None or upper is None else replace(whole, problem=half, grid=upper, halved=True)
     return FreeFilm(scene=scene, wall=wall, whole=whole, solved=solved, turned=turned)

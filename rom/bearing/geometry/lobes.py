@@ -75,6 +75,13 @@ class Lobes(Shaft, MovingWall):
             )
         if any(self.misalignment) and self.width is None:
             raise ValueError("misalignment: got one for an infinitely wide bearing; give it a width")
+        if self.width is not None and not self.single:
+            move = math.hypot(*self.misalignment) * self.width / 2
+            if move >= self.clearance:
+                raise ValueError(
+                    f"misalignment: got slopes that move the ends of the shaft by {move:.3g} m; they must move by less "
+                    f"than the clearance, {self.clearance:.3g} m"
+                )
         if self.pivot is not None and self.joined:
             raise ValueError("pivot: got one for lobes without gaps between them; give an arc that leaves gaps")
         if self.tilts is not None and (self.pivot is None or len(self.tilts) != self.lobes):

@@ -252,12 +252,14 @@ class PivotedSector(Ring, Tilting):
     @model_validator(mode="after")
     def _fits(self) -> Self:
         if self.angle > math.pi:
-            raise ValueError(f"angle: got {self.angle!r} rad; it must be at most π for a pad that tilts")
+            raise ValueError(
+                f"angle: got {math.degrees(self.angle):.6g} degrees; it must be at most 180 for a pad that tilts"
+            )
         fitting = math.floor(2 * math.pi / self.angle * (1 + FITTING))
         if self.pads is not None and self.pads > fitting:
             raise ValueError(
-                f"pads: got {self.pads!r}; at most {fitting} pads of {self.angle!r} rad fit into a ring; reduce one of "
-                "the two"
+                f"pads: got {self.pads!r}; at most {fitting} pads of {math.degrees(self.angle):.6g} degrees fit into a "
+                "ring; reduce one of the two"
             )
         return self
 

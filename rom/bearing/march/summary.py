@@ -15,7 +15,7 @@ REPEATED = 0.01
 """Largest difference of the last two periods over the clearance, or over the first film, of a settled march."""
 
 AT_REST = 1e-3
-"""Size of the motion in the last part of a march over the clearance, below which the shaft is at rest."""
+"""Motion in the last part of a march over the clearance, or over the film then, below which the wall is at rest."""
 
 LAST_PART = 0.2
 """The last part of a march without a period, for which its answer holds, and that before it, with which it agrees."""
@@ -147,12 +147,19 @@ def _window(duty: Duty, series: Series) -> tuple[float, float, str, bool | None]
         change = _difference(time, places, period)
         words = f"the last two periods differ by {100 * change:.2g} % of the {_scale(duty)}"
         return end - period, end, words, change <= REPEATED
+    if period is not None:
+        return begin, end, "all of the time, less than one period", None
     if duty.curves or duty.approach:
         return begin, end, "all of the time", None
     part = LAST_PART * (end - begin)
+    if duty.turn is not None and part < duty.turn * (1 - 1e-9):
+        turns = (end - begin) / duty.turn
+        return begin, end, f"all of the time, {turns:.2g} turns, too short to show where the motion ends", None
     sizes = [_size(places[(time >= end - (n + 1) * part) & (time <= end - n * part)]) for n in (0, 1)]
     first = end - part
-    if sizes[0] < AT_REST:
+    if sizes[0] < AT_REST * (1.0 if duty.lobes else float(places[-1, 0])):
+        if duty.turn is None:
+            return first, end, f"the last part moves by less than {100 * AT_REST:g} % of the film", None
         return first, end, "at rest in its equilibrium", True
     if duty.lobes:
         return first, end, *_whirl(duty, series, sizes)

@@ -46,23 +46,21 @@ def supply_warnings(scene: Bearing, solution: Solution) -> list[str]:
     for number, supply in enumerate(scene.supply, start=1):
         flow = next(value for name, (value, _) in values.items() if name.startswith(f"supply_{number}_flow"))
         if flow < 0:
-            warnings.append(
-                f"supply.{number - 1}: takes {-flow:.3g} {'m^2/s' if scene.wide else 'm^3/s'} from the film"
-            )
+            warnings.append(f"supply {number} takes {-flow:.3g} {'m^2/s' if scene.wide else 'm^3/s'} from the film")
         if density is None:
             continue
         if supply.capillary is not None:
             reynolds = 4 * density * abs(flow) / (math.pi * viscosity * supply.capillary.diameter)
             if reynolds > MAX_LAMINAR:
                 warnings.append(
-                    f"supply.{number - 1}.capillary: the Reynolds number is {reynolds:.3g}; its law holds up to "
+                    f"supply {number}, capillary: the Reynolds number is {reynolds:.3g}; its law holds up to "
                     f"{MAX_LAMINAR:g}; take a narrower or a longer one"
                 )
         if supply.orifice is not None:
             reynolds = 4 * density * abs(flow) / (math.pi * viscosity * supply.orifice.diameter)
             if reynolds < MIN_ORIFICE:
                 warnings.append(
-                    f"supply.{number - 1}.orifice: the Reynolds number is {reynolds:.3g}; its coefficient is constant "
+                    f"supply {number}, orifice: the Reynolds number is {reynolds:.3g}; its coefficient is constant "
                     f"from {MIN_ORIFICE:g} on; take a capillary"
                 )
     return warnings

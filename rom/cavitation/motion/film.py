@@ -42,6 +42,8 @@ class MovingFilm:
     ruptures : whether the film cavitates.
     contact : the contact pressure over the film thickness; None of walls that do not touch.
     closest : smallest film thickness of walls that do not touch, m, such as that of which flow factors are known.
+    turns : whether each coordinate is the tilt of a pad, on which no pressure in the gaps beside it acts; by default
+        none is.
     """
 
     problem: Problem
@@ -53,6 +55,7 @@ class MovingFilm:
     ruptures: bool = True
     contact: ContactLaw | None = None
     closest: float = 0.0
+    turns: NDArray[np.bool_] | None = None
 
     @cached_property
     def _sampled(self) -> tuple[Array, Array, list[tuple[int, ...]]]:
@@ -222,7 +225,10 @@ class MovingFilm:
     @cached_property
     def weights(self) -> Array:
         """The force on each coordinate by a pressure at each node, m² (m³ of an angle), shape (nodes, coordinates)."""
-        return self.sides * self.grid.areas.reshape(-1, 1) * self.at_nodes.reshape(-1, len(self.normals))
+        areas = np.repeat(self.grid.areas[..., None], len(self.normals), axis=-1)
+        if self.problem.shape.idle and self.turns is not None:
+            areas[..., self.turns] = sum(area for _, _, area in quarters(self.problem.shape, self.grid))[..., None]
+        return self.sides * (areas * self.at_nodes).reshape(-1, len(self.normals))
 
     @cached_property
     def reach(self) -> Array:

@@ -30,7 +30,7 @@ from roughfilm.terminal.scenes import bearing_of
 from roughfilm.words.march import headline, rows_of
 
 EXAMPLES = (
-    "roughfilm march scripts/examples/scenes/connecting_rod.toml --out rod",
+    "roughfilm march scripts/examples/scenes/engine_bearing.toml --out engine",
     "roughfilm march scripts/examples/scenes/unbalanced_rotor.toml --end 0.2s --out rotor",
 )
 
@@ -51,7 +51,9 @@ def command(
     ] = None,
     error: Annotated[
         float,
-        typer.Option(help="Largest error of a step over the motion in the longest one.", rich_help_panel=NUMERICS),
+        typer.Option(
+            help="Largest error of a time step, over the motion in the largest step.", rich_help_panel=NUMERICS
+        ),
     ] = ERROR,
     steps: Annotated[
         int | None,

@@ -19,7 +19,7 @@ FOUR = BORE | {"lobes": 4, "arc": "80 deg", "pivot": 0.5}
 FIVE = BORE | {"lobes": 5, "arc": "60 deg", "pivot": 0.5}
 
 
-def scene(geometry, *, force="5 kN", cavitation="0 Pa", load=None):
+def scene(geometry, *, force="5 kN", cavitation="0 Pa", load=None, inlet="0 Pa"):
     return read_scene(
         {
             "name": "pads",
@@ -28,6 +28,7 @@ def scene(geometry, *, force="5 kN", cavitation="0 Pa", load=None):
             "lubricant": {"viscosity": "20 mPa*s", "cavitation_pressure": cavitation},
             "motion": {"speed": "3000 rpm"},
             "load": {"force": force} | (load or {}),
+            "boundary": {"inlet": {"pressure": inlet}},
         }
     )
 
@@ -92,6 +93,21 @@ def test_pads_carry_light_and_heavy_loads_from_nothing(preload, pivot, force):
     film, instant = settled(FIVE | {"preload": preload, "pivot": pivot, "offset": pivot}, force=force, cells=(45, 6))
     assert film.solved.force(instant.state.pressure)[:2] == pytest.approx(-film.load[:2], abs=1e-6 * film.load[1] ** 2)
     assert instant.faces.thickness.min() > 0
+
+
+def test_the_pressure_in_the_gaps_acts_on_the_shaft_alone():
+    """The trapezoidal rule over each pad gives no moment about its pivot; over the circle it gives the load."""
+    film, instant = settled(FOUR | {"first": "-45 deg", "preload": 0.4}, inlet="0.1 MPa", cells=(72, 8))
+    solution, geometry = film.solution(instant), film.scene.geometry
+    x, pressure = np.append(solution.grid.x, 2 * np.pi * RADIUS), solution.state.pressure @ solution.grid.volume_y
+    pressure, angle = np.append(pressure, pressure[0]), geometry.start + x / RADIUS
+    along, up = (-np.trapezoid(pressure * side(angle), x) for side in (np.cos, np.sin))
+    assert [along, up] == pytest.approx(-film.load[:2], abs=1e-6 * 5e3)
+    for pad, pivot in enumerate(geometry.pivots):
+        begin = RADIUS * geometry.begins(pad)
+        inside = (x > begin - 1e-9) & (x < begin + RADIUS * geometry.turn + 1e-9)
+        moments = pressure[inside] * np.sin(angle[inside] - pivot)
+        assert abs(np.trapezoid(moments, x[inside])) < 1e-5 * np.trapezoid(pressure[inside], x[inside])
 
 
 def test_suction_that_closes_a_pad_is_one_line():

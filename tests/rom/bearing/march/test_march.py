@@ -87,6 +87,16 @@ def test_a_march_from_anywhere_ends_in_the_equilibrium():
     assert "equilibrium" in march.state
 
 
+def test_less_than_a_period_or_a_few_turns_state_no_end_of_the_motion():
+    """A turn takes 10 ms; in 1 ms a shaft hardly leaves its start."""
+    for body in ({"unbalance": "100 g*mm"}, {"mass": "1 kg", "start": {"eccentricity": [0.1, -0.1]}}):
+        scene = bearing(load={"force": "100 N"}, body=body)
+        march = march_bearing(scene, end=1e-3, steps=2, cells=CELLS, uncertain=False)
+        assert march.settled is None
+        assert (march.first, march.last) == (0.0, 1e-3)
+        assert "period" in march.state or "too short" in march.state
+
+
 def test_a_heavy_rotor_whirls_at_about_half_of_its_speed_and_a_light_one_does_not():
     def marched(mass):
         body = {"mass": mass, "start": {"eccentricity": [0.1, -0.1]}}

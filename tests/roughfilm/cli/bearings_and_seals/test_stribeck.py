@@ -184,7 +184,7 @@ def test_curves_of_another_scene_are_not_mixed_with_these(swept):
 def test_another_kind_of_scene_is_refused(tmp_path):
     done = CliRunner().invoke(app, ["stribeck", str(SCENE.parent / "pocket.toml"), "--out", str(tmp_path)])
     assert done.exit_code == 2
-    assert "curves over speed are those of a bearing" in done.stderr
+    assert "takes scenes of kind 'bearing'" in done.stderr
 
 
 def test_the_page_begins_with_the_friction_at_the_speed_of_the_scene(swept, tmp_path, monkeypatch):
