@@ -64,7 +64,7 @@ def march(
     >>> import roughfilm as rf
     >>> scene = rf.load_scene("scripts/examples/scenes/unbalanced_rotor.toml")
     >>> march = rf.march(scene, end=0.02, cells=(24, 8), uncertainty=False)
-    >>> march["film_min"].min() > 0, march.series.units["film_min"]
+    >>> bool(march["film_min"].min() > 0), march.series.units["film_min"]
     (True, 'm')
     """
     if not isinstance(scene, Bearing):

@@ -227,7 +227,8 @@ class MovingFilm:
         """The force on each coordinate by a pressure at each node, m² (m³ of an angle), shape (nodes, coordinates)."""
         areas = np.repeat(self.grid.areas[..., None], len(self.normals), axis=-1)
         if self.problem.shape.idle and self.turns is not None:
-            areas[..., self.turns] = sum(area for _, _, area in quarters(self.problem.shape, self.grid))[..., None]
+            with_film = np.sum([area for _, _, area in quarters(self.problem.shape, self.grid)], axis=0)
+            areas[..., self.turns] = with_film[..., None]
         return self.sides * (areas * self.at_nodes).reshape(-1, len(self.normals))
 
     @cached_property
