@@ -69,8 +69,8 @@ SLOW = {"charts", "stability"}
 def place(tmp_path_factory):
     """A directory with small scenes."""
     place = tmp_path_factory.mktemp("width")
-    for name in ("pocket.toml", "rough_washer.toml", "parabolic_slider.toml", "grooved_journal.toml", "unbalanced_rotor.toml"):
-        shutil.copy(SCENES / name, place)
+    for name in ("pocket", "rough_washer", "parabolic_slider", "grooved_journal", "unbalanced_rotor"):
+        shutil.copy(SCENES / f"{name}.toml", place)
     shutil.copy(STUDIES / "pocket.toml", place / "study.toml")
     for name, text in {"rough.toml": SURFACE, "seal.toml": SEAL, "contact.toml": CONTACT}.items():
         (place / name).write_text(text)
