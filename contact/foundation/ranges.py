@@ -50,6 +50,7 @@ _ENGINEERING: Mapping[str, tuple[float, float]] = {
     "kg/m^3": (1e-3, 1e5),
     "kg": (1e-9, 1e6),
     "kg*m": (1e-12, 1e6),
+    "kg*m^2": (1e-15, 1e6),
     "m/s": (1e-9, 1e5),
     "rad": (1e-8, 1e2),
     "rad/s": (1e-6, 1e6),

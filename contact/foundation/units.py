@@ -100,6 +100,7 @@ _MEANINGS: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "s": ("a time", ("s", "min", "h")),
     "kg": ("a mass", ("kg", "g")),
     "kg*m": ("an unbalance", ("g*mm", "kg*m")),
+    "kg*m^2": ("a moment of inertia", ("kg*mm^2", "kg*m^2")),
     "K": ("a temperature", ("degC", "K")),
     "m^2": ("an area", ("mm^2", "m^2")),
     "W": ("a power", ("W", "kW")),

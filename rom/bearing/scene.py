@@ -287,7 +287,11 @@ class Bearing(Scene):
         check_motion(self.geometry, over_time, self.body, loaded=self.load is not None)
         if self.load is not None:
             self._can_be_loaded(self.load)
-        elif film is None and over_time is not None and over_time.places_or_loads:
+        elif (
+            (film is None or (isinstance(self.geometry, Tilting) and self.geometry.slopes is None))
+            and over_time is not None
+            and over_time.places_or_loads
+        ):
             pass  # a march has its load or its path over time
         elif film is None:
             key = "eccentricity" if isinstance(self.geometry, Shaft) else "film"

@@ -27,11 +27,11 @@ def march(
 
     The film, ∂(θh)/∂t + (u/2) ∂(θh)/∂x - ∇·(θh³/12η ∇p) = 0, and the body, M q̈ = F + W(t), are solved together at every
     step; steps have second order in time. The scene gives speed, load or path over time in ``[motion.over_time]``, and
-    mass, unbalance and start in ``[body]``.
+    mass, unbalance, inertia and start in ``[body]``.
 
     Parameters
     ----------
-    scene : a bearing of shape "lobes", or one whose wall moves along its normal: pads, sectors and washers.
+    scene : a bearing of any shape but "journal": shafts in lobes, pads, sectors and washers, also about a pivot.
     end : last time, s; by default that of the table, five of its periods, or 20 turns.
     error : largest error of a step over the motion in the longest one, up to 1.
     steps : number of equal steps, in place of steps by their error.
@@ -64,7 +64,7 @@ def march(
     >>> import roughfilm as rf
     >>> scene = rf.load_scene("scripts/examples/scenes/unbalanced_rotor.toml")
     >>> march = rf.march(scene, end=0.02, cells=(24, 8), uncertainty=False)
-    >>> march["film_min"].min() > 0, march.series.units["film_min"]
+    >>> bool(march["film_min"].min() > 0), march.series.units["film_min"]
     (True, 'm')
     """
     if not isinstance(scene, Bearing):

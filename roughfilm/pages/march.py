@@ -11,6 +11,14 @@ from roughfilm.rom.bearing.march.solve import March
 from roughfilm.words.march import headline, rows_of
 
 
+def left_out(march: March) -> str:
+    """The effects of roughness and of solids that a march leaves out, in words."""
+    scene = march.scene
+    if scene.asperities is not None:
+        return "deformation of the walls as a whole; roughness is averaged, and asperities touch"
+    return "deformation" if scene.roughness is not None else "deformation; walls are smooth"
+
+
 def write_page(march: March, entries: Mapping[str, Any], path: Path) -> None:
     """Write the page of a march and of the object of ``--json``; InputError if the file cannot be written."""
     series = march.series
@@ -26,6 +34,7 @@ def write_page(march: March, entries: Mapping[str, Any], path: Path) -> None:
         march=march,
         rows=list(rows_of(march.quantities, march.titles)),
         least=f"{series.time[least]:.4g}",
+        left_out=left_out(march),
         orbit=svg(figures.orbit(march)) if "eccentricity_x" in series.units else None,
         over_time=svg(figures.over_time(march)),
         film=None if near is None else svg(figures.film(march, near)),

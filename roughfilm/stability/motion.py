@@ -413,7 +413,7 @@ def summary(spots: Sequence[Spot]) -> list[str]:
     """Sentences about the map: each group, and the number of Newton steps."""
     lines = []
     for name, own in in_groups(spots).items():
-        if steps := [spot.iterations for spot in own if spot.iterations]:
+        if steps := [spot.iterations for spot in own if spot.iterations is not None]:
             lines.append(f"{name}: {in_numbers(own)}; {median(steps):g} Newton steps (median), at most {max(steps)}.")
     lines.append(f"{count(spots, MapOutcome.REFUSED)} shafts without an equilibrium are refused.")
     return [*lines, *listed(spots, *BAD)]

@@ -108,6 +108,8 @@ def free_film(
     ruptures: bool = True,
     contact: ContactLaw | None = None,
     wall: RigidWall | None = None,
+    halves: bool = True,
+    closest: float = 0.0,
 ) -> FreeFilm:
     """The film of a bearing on about ``cells`` equal cells along and across.
 
@@ -117,6 +119,8 @@ def free_film(
     ruptures : whether the film cavitates.
     contact : the contact pressure of the walls over the film thickness; None of walls that do not touch.
     wall : the coordinates of the wall; by default those of a shaft in lobes or of a pad about a pivot.
+    halves : whether half of the width is solved where the film is symmetric about its middle.
+    closest : smallest film thickness of walls that do not touch, m.
     """
     if wall is None:
         moving = _started(scene, contact)
@@ -126,7 +130,7 @@ def free_film(
     problem = film(placed)
     if problem.shape.roughness is not None and scene.roughness is not None:
         problem = straight(problem, scene.roughness.rms)
-    even = _even(scene, problem.shape)
+    even = halves and _even(scene, problem.shape)
     wall = wall.first(2) if "slope_y" in wall.names and (even or problem.shape.wide) else wall
     modes, shaped = wall.normals, problem.shape.thickness
     at_rest = replace(
@@ -156,6 +160,7 @@ def free_film(
         ambient=-scene.lubricant.cavitation_pressure,
         ruptures=ruptures,
         contact=contact,
+        closest=closest,
         turns=wall.turns,
     )
     solved = whole if half is None or upper is None else replace(whole, problem=half, grid=upper, halved=True)

@@ -17,6 +17,7 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
 from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
+from roughfilm.rom.cavitation.motion.march import held
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Level, Solution, coarsening
 from roughfilm.rom.ladder.model import Progress, silent
@@ -29,6 +30,9 @@ MIN_CELLS = 24
 
 ACROSS = 2
 """Cells along the film over those across it."""
+
+RATE_AT_REST = 1e-6
+"""Rate of a slow motion, 1/s, in place of a steady film at rest, whose cavities no flow determines."""
 
 COARSE_CELLS = 48
 """Number of cells along the film on which the expected film is sought."""
@@ -148,11 +152,14 @@ def approach(film: FreeFilm, instant: Instant, stiffness: Array) -> Array:
 def closer(film: FreeFilm, instant: Instant, step: float, *, tolerance: float) -> Instant:
     """The film whose wall has moved by ``step``, m, in the direction in which a growing load moves it."""
     moved, count = step * approach(film, instant, stiffness_of(film, instant)), instant.place.size
+    speed = film.solved.problem.speed
+    slow = RATE_AT_REST, RATE_AT_REST * held(film.solved, instant)
     drive = Drive(
-        speed=film.solved.problem.speed,
+        speed=speed,
         force=np.zeros(count),
         stiffness=np.zeros((count, count)),
         free=np.zeros(count, dtype=bool),
+        storage=(0.0, 0.0) if speed else slow,
     )
     return settled(film.solved, replace(instant, place=instant.place + moved), drive, tolerance=tolerance)
 

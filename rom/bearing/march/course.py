@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +13,10 @@ from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
 from roughfilm.rom.bearing.free.walls import wall_of
 from roughfilm.rom.bearing.geometry.journal import Journal
-from roughfilm.rom.bearing.geometry.lobes import Lobes
-from roughfilm.rom.bearing.geometry.pivoted import Tilting
+from roughfilm.rom.bearing.geometry.lobes import DOWN, Lobes
+from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector, Tilting
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
+from roughfilm.rom.bearing.march.rough_walls import Walls
 from roughfilm.rom.bearing.moving.body import Body, Start
 from roughfilm.rom.bearing.moving.over_time import Curve
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
@@ -30,6 +31,9 @@ PERIODS = 5
 
 CLOSED = 0.9
 """Part of the film that a constant approach closes in a march without an end."""
+
+FIRST_NARROWING = 0.5
+"""Slope times length of a pad from which its equilibrium is sought, over the given film at its pivot."""
 
 STEPS_PER_TURN = 20
 """Least number of steps in a turn of the shaft."""
@@ -91,6 +95,12 @@ class Duty:
         return isinstance(self.scene.geometry, Lobes)
 
     @property
+    def pivoted(self) -> Pivoted | PivotedSector | None:
+        """The pad about a pivot; None of another wall."""
+        geometry = self.scene.geometry
+        return geometry if isinstance(geometry, Pivoted | PivotedSector) else None
+
+    @property
     def approach(self) -> float:
         """The velocity at which the walls approach each other, m/s; 0 without one."""
         return float(getattr(self.scene.motion, "approach", None) or 0.0)
@@ -129,7 +139,10 @@ class Duty:
         return scale * curve.since_first(time), scale * curve(time), scale * curve(time, 1)
 
     def load(self, time: float) -> Array:
-        """The load on each coordinate, N (N m of an angle; per width if infinitely wide), without an unbalance."""
+        """The load on each coordinate, N (N m of an angle; per width if infinitely wide), without an unbalance.
+
+        Coordinates of a pad that tilts across the sliding are three, also where a symmetric film has the first two.
+        """
         curves, count = self.curves, len(wall_names(self.scene))
         force = np.zeros(count)
         if "load_x" in curves:
@@ -141,13 +154,37 @@ class Duty:
         elif given is not None:
             size = (self.scene.load_pressure or 0.0) * self.scene.nominal_area
         else:
-            return force
+            size = 0.0
+        if self.pivoted is not None:
+            return self.pivoted.forces(size, self.moments(time))
         if not self.lobes:
             force[0] = -size
             return force
         angle = curves["angle"](time) if "angle" in curves else -math.pi / 2 if given is None else given.angle
         force[:2] = size * math.cos(angle), size * math.sin(angle)
         return force
+
+    def moments(self, time: float) -> tuple[float, float]:
+        """The moments on a pad about the axes along x and y through its pivot, N m."""
+        curves, given = self.curves, self.scene.load
+        about_x, about_y = (
+            curves[name](time) if name in curves else 0.0 if given is None else float(getattr(given, name))
+            for name in ("moment_x", "moment_y")
+        )
+        return about_x, about_y
+
+    def steady_load(self, time: float) -> BearingLoad | None:
+        """The load at a time as that of a steady bearing; None without a force."""
+        force, about = self.load(time), self.moments(time)
+        size = float(np.hypot(*force[:2])) if self.lobes else abs(float(force[0]))
+        if size == 0:
+            return None
+        return BearingLoad.model_construct(
+            pressure=size / self.scene.nominal_area,
+            angle=math.atan2(force[1], force[0]) if self.lobes else DOWN,
+            moment_x=about[0],
+            moment_y=about[1],
+        )
 
     def force(self, time: float) -> Array:
         """The load on each coordinate with that of the unbalance, m e (ω² (cos φ, sin φ) + ω̇ (sin φ, -cos φ))."""
@@ -172,7 +209,7 @@ class Duty:
     def free(self, film: FreeFilm) -> NDArray[np.bool_]:
         """Whether each coordinate moves as its forces make it move."""
         geometry = self.scene.geometry
-        tilted = isinstance(geometry, Lobes) and geometry.tilts is not None
+        tilted = isinstance(geometry, MovingWall) and geometry.tilted
         return np.where(film.wall.turns, not tilted, not self.given_path)
 
     def default_end(self) -> float:
@@ -213,31 +250,36 @@ class Duty:
 
 def wall_names(scene: Bearing) -> tuple[str, ...]:
     """The names of the coordinates of a wall."""
-    return scene.geometry.wall.names if isinstance(scene.geometry, Lobes) else ("film",)
+    geometry = scene.geometry
+    if isinstance(geometry, Lobes):
+        return geometry.wall.names
+    if isinstance(geometry, Tilting):
+        return ("pivot_film", "slope_x", "slope_y")[: 2 + int(geometry.tilts_across)]
+    return ("film",)
 
 
 def refuse_unsupported(duty: Duty) -> None:
     """Raise InputError, in one line, for a scene that has no march."""
     scene = duty.scene
-    if scene.asperities is not None or scene.roughness is not None:
-        part = "asperities" if scene.asperities is not None else "roughness"
-        raise InputError(f"{part}: got some, but a march has smooth walls; leave [{part}] out")
     if scene.boundary.inlet.ram_factor and "speed" in duty.curves:
         raise InputError("boundary.inlet.ram_factor: got one with a speed over time; give the pressure of the inlet")
     if isinstance(scene.geometry, Journal):
         wall_of(scene)
-    if isinstance(scene.geometry, Tilting):
-        raise InputError(
-            f"geometry.shape: got {scene.geometry.shape!r}, which has no march; take a shape with a given tilt"
-        )
     if duty.approach and not duty.given_path:
         raise InputError("motion.approach: got one beside a load; give one of the two")
     if duty.approach and scene.geometry.film is None:
         raise InputError("motion.approach: got one without geometry.film; give the film at the first time")
 
 
-def film_at(duty: Duty, cells: tuple[int, int]) -> FreeFilm:
-    """The film of a march on a grid, at the speed of the first time."""
+def film_at(duty: Duty, cells: tuple[int, int], walls: Walls | None = None) -> FreeFilm:
+    """The film of a march on a grid, at the speed of the first time.
+
+    Parameters
+    ----------
+    walls : the walls; smooth ones by default.
+    """
+    between = walls or Walls()
+    made = partial(free_film, cells=cells, film=between.film, contact=between.contact, closest=between.closest)
     scene, start = duty.scene, duty.body.start or Start()
     speeds = duty.curves["speed"].cubic(duty.curves["speed"].cubic.x) if "speed" in duty.curves else [0.0]
     radius = scene.turning_radius or 1.0
@@ -245,26 +287,26 @@ def film_at(duty: Duty, cells: tuple[int, int]) -> FreeFilm:
     at_start = scene.model_copy(
         update={
             "motion": scene.motion.model_copy(update={"speed": speed, "approach": 0.0}),
-            "load": _first_load(duty),
+            "load": None if duty.given_path else duty.steady_load(duty.begin),
         }
     )
-    film = None
-    if not isinstance(scene.geometry, MovingWall):
-        film = start.film or (duty.curves["film"](duty.begin) if "film" in duty.curves else None)
-        if film is None and scene.geometry.film is None and (scene.motion.speed == 0 or at_start.load is None):
-            raise InputError("body.start.film: is missing for a first film without speed or load; give it")
-    moving = isinstance(scene.geometry, MovingWall)
-    return free_film(at_start, cells, wall=None if moving else wall_of(at_start, film))
-
-
-def _first_load(duty: Duty) -> BearingLoad | None:
-    """The load at the first time; None of a given path, and of no load."""
-    force, area = duty.load(duty.begin), duty.scene.nominal_area
-    size = float(np.hypot(*force[:2])) if duty.lobes else abs(float(force[0]))
-    if duty.given_path or size == 0:
-        return None
-    angle = math.atan2(force[1], force[0]) if duty.lobes else -math.pi / 2
-    return BearingLoad.model_construct(pressure=size / area, angle=angle)
+    if duty.lobes:
+        return made(at_start)
+    film = start.film or (duty.curves["film"](duty.begin) if "film" in duty.curves else None)
+    if film is None and scene.geometry.film is None and (scene.motion.speed == 0 or at_start.load is None):
+        raise InputError("body.start.film: is missing for a first film without speed or load; give it")
+    if duty.pivoted is None:
+        return made(at_start, wall=wall_of(at_start, film))
+    slopes = duty.pivoted.slopes or start.slopes or (0.0, 0.0)
+    wall = None
+    if film is not None or at_start.load is None:
+        wall = duty.pivoted.model_copy(update={"film": film or duty.pivoted.film, "slopes": slopes}).wall
+    if wall is not None and "film" in duty.curves:
+        along = wall.place[1]
+        if duty.pivoted.slopes is None and start.slopes is None:  # the parallel pad is in equilibrium, but unstable
+            along = -FIRST_NARROWING * math.copysign(wall.unit[1], speed) if speed else 0.0
+        wall = replace(wall, place=np.array([duty.curves["film"](duty.begin), along, *wall.place[2:]]))
+    return made(at_start, wall=wall, halves="moment_x" not in duty.curves and slopes[1] == 0)
 
 
 def course_of(duty: Duty, film: FreeFilm) -> Course:
@@ -275,11 +317,13 @@ def course_of(duty: Duty, film: FreeFilm) -> Course:
     if duty.body.mass is not None:
         moved = 2 if duty.lobes else 1
         mass[:moved, :moved] = duty.body.mass / (scene.pieces or 1) * np.eye(moved)
+    if duty.body.inertia is not None:  # a slope along x turns the pad about the axis along y
+        mass[1:, 1:] = np.diag(duty.body.inertia[::-1][: count - 1])
     return Course(
         free=duty.free(film),
         place=lambda time: duty.place(time, film),
         speed=lambda time: abs(duty.speed(time)),
-        force=duty.force,
+        force=lambda time: duty.force(time)[:count],
         mass=mass,
         stiffness=np.zeros((count, count)),
         velocity_scale=_velocity_scale(duty, film),
@@ -298,7 +342,7 @@ def _velocity_scale(duty: Duty, film: FreeFilm) -> Array:
         return np.asarray(scale)
     geometry = duty.scene.geometry
     reach = min(geometry.length, geometry.width or geometry.length)
-    load = float(np.abs(duty.load(duty.begin)).max()) or 1.0
+    load = float(np.abs(duty.load(duty.begin)[: unit.size] * unit / unit[0]).max()) or 1.0
     closing = load * unit[0] ** 3 / (duty.scene.lubricant.viscosity * duty.scene.nominal_area * reach**2)
     return np.asarray(closing * unit / unit[0])
 
@@ -322,18 +366,24 @@ def started(duty: Duty, film: FreeFilm, *, tolerance: float) -> Moving:
         velocity[: len(start.velocity)] = start.velocity
     elif duty.approach:
         velocity[0] = -duty.approach
-    free = duty.free(film)
-    given = start.eccentricity is not None or start.film is not None or duty.given_path
+    free, load = duty.free(film), duty.load(begin)[:count]
+    given = start.eccentricity is not None or start.film is not None or (duty.given_path and duty.pivoted is None)
     speed = abs(duty.speed(begin))
-    if not given and duty.changes and speed > 0 and np.abs(duty.load(begin)).max() > 0:
+    if not given and duty.changes and speed > 0 and (duty.given_path or np.abs(load).max() > 0):
         try:
-            instant = equilibrium(film, None, tolerance=tolerance)
+            instant = equilibrium(film, None, tolerance=tolerance, load=load)
         except (InputError, ConvergenceError) as error:
             key = "eccentricity" if duty.lobes else "film"
             raise InputError(
                 f"body.start.{key}: is missing, and the first load has no equilibrium ({error}); give it"
             ) from None
         return begun(film.solved, instant, time=begin, velocity=velocity)
+    if (room := film.solved.room(place)) <= 0 and (film.solved.contact is not None or film.solved.closest > 0):
+        key = "eccentricity" if duty.lobes else "film"
+        raise InputError(
+            f"body.start.{key}: the walls are {-room:.3g} m closer than flow factors and contact are known for at the "
+            "first time; start further apart"
+        )
     held = free & film.wall.turns
     drive = Drive(
         speed=speed,

@@ -10,13 +10,26 @@ from numpy.typing import NDArray
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.course import Duty
+from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
+from roughfilm.rom.bearing.mixed.contact_load import asperity_load
 from roughfilm.rom.cavitation.balance import CAVITY, FIXED
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio
 from roughfilm.rom.cavitation.evaluation.friction import drag_of_rows, radius_between
 from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
 from roughfilm.rom.cavitation.motion.coupled import Instant
 from roughfilm.rom.cavitation.motion.march import Moving
+from roughfilm.rom.cavitation.newton import BALANCE_ROUNDOFF
 from roughfilm.rom.cavitation.solve import Solution
+
+FORCES = {
+    "eccentricity_x": "force_x",
+    "eccentricity_y": "force_y",
+    "film": "force",
+    "pivot_film": "force",
+    "slope_x": "moment_y",
+    "slope_y": "moment_x",
+}
+"""The names of the forces on the coordinates but the tilts of pads in lobes."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,10 +40,12 @@ class Observer:
     ----------
     duty : what moves the bearing.
     film : its film.
+    asperities : those of walls that may touch; None of others.
     """
 
     duty: Duty
     film: FreeFilm
+    asperities: AsperityTable | None = None
 
     @cached_property
     def units(self) -> Mapping[str, str]:
@@ -48,6 +63,10 @@ class Observer:
         for name, turns in zip(self._forces, wall.turns, strict=True):
             units[f"film_{name}"] = turning if turns else force
             units[f"load_{name}"] = turning if turns else force
+            if self.asperities is not None:
+                units[f"contact_{name}"] = turning if turns else force
+        if self.asperities is not None:
+            units |= {"contact_load": force, "contact_pressure_max": "Pa", "contact_area": "1"}
         units |= {"friction": force, "power_sliding": "W/m" if wide else "W", "power_squeeze": "W/m" if wide else "W"}
         units["power_loss"] = units["power_sliding"]
         if self._turns:
@@ -68,11 +87,14 @@ class Observer:
     def _forces(self) -> tuple[str, ...]:
         """The names of the force on each coordinate."""
         return tuple(
-            f"moment_{name.removeprefix('tilt_')}"
-            if turns
-            else {"eccentricity_x": "force_x", "eccentricity_y": "force_y"}.get(name, "force")
-            for name, turns in zip(self.film.wall.names, self.film.wall.turns, strict=True)
+            f"moment_{name.removeprefix('tilt_')}" if name.startswith("tilt_") else FORCES[name]
+            for name in self.film.wall.names
         )
+
+    @property
+    def _signs(self) -> Array:
+        """The sign of each of these forces: a moment about y acts against a slope along x."""
+        return np.array([-1.0 if name == "slope_x" else 1.0 for name in self.film.wall.names])
 
     @property
     def _turns(self) -> bool:
@@ -104,20 +126,21 @@ class Observer:
         instant, film, time = moving.instant, self.film.solved, moving.now.time
         wall, speed = self.film.wall, self.duty.speed(time)
         velocity, scale = moving.now.velocity, np.where(wall.turns, 1.0, wall.unit[0])
-        named = wall.names[0] == "film"
         solution = self._solution(instant, abs(speed))
-        force, load = film.force(instant.state.pressure), self.duty.force(time)
-        friction, torque, power = self._friction(solution)
+        force, load = film.force(instant.state.pressure), self.duty.force(time)[: wall.place.size]
+        contact, rubbed, touching = self._contact(instant)
+        friction, torque, power = self._friction(solution, rubbed)
         squeeze = -float(force @ velocity)
         flows, stored, rate, imbalance = self._flows(instant)
         radius = (self.duty.scene.turning_radius or 1.0) if film.problem.shape.polar else 1.0
-        values = [time, speed * radius, *(instant.place / (1.0 if named else scale)), *velocity]
+        values = [time, speed * radius, *(instant.place / (scale if self.duty.lobes else 1.0)), *velocity]
         values += [*self._least(instant.faces.thickness), *self._peak(solution)]
-        values += [number for pair in zip(force, load, strict=True) for number in pair]
+        parts = [self._signs * part for part in (force, load, *contact)]
+        values += [number for numbers in zip(*parts, strict=True) for number in numbers] + touching
         values += [friction, power, squeeze, power + squeeze, *([torque] if self._turns else []), *flows]
         cavitated = float(film.grid.areas[instant.kind == CAVITY].sum() / film.grid.areas.sum())
         values += [stored, rate, imbalance, cavitated, moving.step, moving.order, moving.error]
-        return np.array([*values, instant.residual, instant.force_residual, instant.iterations], dtype=float)
+        return np.array([*values, self._residual(instant), instant.force_residual, instant.iterations], dtype=float)
 
     def fields(self, instant: Instant) -> dict[str, tuple[Array, str]]:
         """Film thickness, pressure above ambient and density ratio over the whole width, shape (nx, ny)."""
@@ -196,22 +219,44 @@ class Observer:
         top = peak_pressure(solution) + self.duty.scene.lubricant.cavitation_pressure
         return top, self._along(float(solution.grid.x[i])), self._across(int(j))
 
-    def _friction(self, solution: Solution) -> tuple[float, float, float]:
-        """The friction on the sliding wall, N, its torque, N m, and power, W."""
+    def _contact(self, instant: Instant) -> tuple[list[Array], Array | float, list[float]]:
+        """The force of contact on each coordinate, boundary friction of the rows, N, and the numbers of the contact.
+
+        The latter are the load, N, the largest pressure, Pa, and the fraction of the area in contact.
+        """
+        film, scene = self.film.solved, self.duty.scene
+        if self.asperities is None or scene.asperities is None:
+            return [], 0.0, []
+        force = film.contact_at(instant.place).force
+        found = asperity_load(film.shape(instant.place), film.grid, self.asperities)
+        load = float(np.hypot(*force[:2])) if self.duty.lobes else float(force[0])
+        rubbed = scene.asperities.friction * found.force.sum(axis=0)
+        return [force], rubbed, [load, found.pressure_max, found.area_fraction]
+
+    def _friction(self, solution: Solution, rubbed: Array | float) -> tuple[float, float, float]:
+        """The friction on the sliding wall, N, with boundary friction of the rows, its torque, N m, and power, W."""
         film, grid = self.film.solved, solution.grid
         drag = drag_of_rows(solution, halved=film.halved)
+        drag = replace(drag, rows=drag.rows + rubbed)
         force = film.sides * float(drag.rows.sum() + drag.between.sum())
         radius, speed = self.duty.scene.turning_radius, solution.problem.speed
         if not film.problem.shape.polar:
             return force, force * (radius or 0.0), speed * force
-        torque = float((drag.rows * grid.radius).sum() + (drag.between * radius_between(grid)).sum())
+        torque = film.sides * float((drag.rows * grid.radius).sum() + (drag.between * radius_between(grid)).sum())
         return force, torque, speed * torque
+
+    def _residual(self, instant: Instant) -> float:
+        """The residual of a step; 0 where no balance exceeds the round-off of the stored volume over the step."""
+        open_by = np.abs(np.where(instant.kind >= FIXED, 0.0, instant.balance)).max()
+        small = BALANCE_ROUNDOFF * instant.network.storage.max()
+        return instant.residual if open_by > small or small == 0 else 0.0
 
     def _flows(self, instant: Instant) -> tuple[list[float], float, float, float]:
         """The flows that enter through each place, m³/s, the volume at cavitation density, its rate and the imbalance.
 
         The flow through the sides counts outwards, as that through the outlet. The imbalance is that of all flows with
-        the storage, over the largest of them and of those along the film.
+        the storage, over the largest of them and of those along the film; below the round-off of the stored volume over
+        a step it is 0, because nothing else flows at rest.
         """
         film, net = self.film.solved, instant.network
         areas, excess = film.grid.areas, film.problem.compression(instant.state.pressure)[0]
@@ -227,12 +272,13 @@ class Observer:
                 flows.append(-flow)
             else:
                 flows.append((-film.sides if name == "outlet_flow" else film.sides) * flow)
-        stored = film.sides * float((areas * instant.faces.thickness * filled).sum())
+        stored = film.sides * float((areas * film.gap(instant.faces.thickness) * filled).sum())
         rate = film.sides * float((net.storage * filled - net.stored).sum())
         entering = sum(
             flow if name.startswith(("supply", "inlet")) else -flow
             for name, flow in zip(self._places, flows, strict=True)
         )
         passing = film.sides * float(np.abs(net.couette * filled).sum(axis=1).max())
-        largest = max([passing, abs(rate), *map(abs, flows)])
-        return flows, stored, rate, (entering - rate) / largest if largest > 0 else 0.0
+        largest, missing = max([passing, abs(rate), *map(abs, flows)]), entering - rate
+        small = BALANCE_ROUNDOFF * film.sides * float(net.storage.sum())
+        return flows, stored, rate, missing / largest if abs(missing) > small else 0.0

@@ -10,7 +10,8 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.course import Duty, course_of, film_at
-from roughfilm.rom.bearing.scene import Bearing, BearingLoad
+from roughfilm.rom.bearing.moving.checks import MOMENTS
+from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
 from roughfilm.rom.cavitation.motion.coupled import Instant
 from roughfilm.rom.ladder.kind import InTime
@@ -88,7 +89,7 @@ def quasi_static(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIM
         least.append(float(thickness.min()))
         moved.append(max(float((thickness + film.solved.at_nodes @ change).min()), 0.0))
     moving = ~film.wall.turns
-    loads = np.array([np.linalg.norm(duty.load(at)[moving]) for at in time])
+    loads = np.array([np.linalg.norm(duty.load(at)[: moving.size][moving]) for at in time])
     pulls = np.array([np.linalg.norm(forces[moving]) for forces, _ in motion])
     return QuasiStatic(
         time=time,
@@ -104,7 +105,8 @@ def _equilibria(duty: Duty, film: FreeFilm, time: Array) -> list[Instant]:
     for at in time:
         placed = _at_speed(film, abs(duty.speed(float(at))))
         start = instants[-1] if instants else None
-        instants.append(equilibrium(placed, start, tolerance=RESIDUAL, load=duty.load(float(at))))
+        load = duty.load(float(at))[: film.wall.place.size]
+        instants.append(equilibrium(placed, start, tolerance=RESIDUAL, load=load))
     return instants
 
 
@@ -170,7 +172,7 @@ def in_time(scene: Bearing, within: float) -> InTime | None:
 def _loaded_over_time(scene: Bearing) -> bool:
     """Whether the load of a scene changes in time."""
     table = scene.motion.over_time
-    return table is not None and bool({"load", "load_x"} & table.table.columns.keys())
+    return table is not None and bool({"load", "load_x", *MOMENTS} & table.table.columns.keys())
 
 
 def steady(scene: Bearing) -> Bearing:
@@ -180,13 +182,7 @@ def steady(scene: Bearing) -> Bearing:
     duty, table = Duty(scene=scene), scene.motion.over_time
     assert table is not None
     times = np.linspace(table.table.time[0], table.table.time[-1], 20 * TIMES + 1)
-    sizes = [float(np.linalg.norm(duty.load(at)[:2])) for at in times]
-    at = float(times[int(np.argmax(sizes))])
-    force = duty.load(at)
+    at = float(max(times, key=lambda time: float(np.linalg.norm(duty.load(time)[: 2 if duty.lobes else 1]))))
     radius = scene.turning_radius if not duty.lobes and scene.turning_radius is not None else 1.0
-    load = BearingLoad.model_construct(
-        pressure=max(sizes) / scene.nominal_area,
-        angle=math.atan2(force[1], force[0]) if duty.lobes else BearingLoad.model_fields["angle"].default,
-    )
     motion = scene.motion.model_copy(update={"speed": duty.speed(at) * radius, "over_time": None})
-    return scene.model_copy(update={"load": load, "motion": motion, "body": None})
+    return scene.model_copy(update={"load": duty.steady_load(at), "motion": motion, "body": None})

@@ -10,6 +10,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.course import Duty, course_of, film_at, started
 from roughfilm.rom.bearing.march.numbers import Observer
+from roughfilm.rom.bearing.march.rough_walls import walls_of
 from roughfilm.rom.cavitation.motion.march import Known, Moving, march
 from roughfilm.rom.cavitation.network import State
 
@@ -133,8 +134,9 @@ def run(
     ConvergenceError
         If a film becomes too thin, or a step does not converge; the steps before it are kept.
     """
-    film = film_at(duty, numerics.cells)
-    observer, chunks = Observer(duty=duty, film=film), list(known)
+    walls = walls_of(duty.scene)
+    film = film_at(duty, numerics.cells, walls)
+    observer, chunks = Observer(duty=duty, film=film, asperities=walls.contact), list(known)
     if chunks:
         moving = moving_of(film, chunks[-1].state)
     else:
@@ -185,7 +187,7 @@ def _chunks(
         largest_step=numerics.step,
         error=numerics.error,
         tolerance=tolerance,
-        closest=CLOSEST * float(film.wall.unit[0]),
+        closest=closest_of(film),
     )
 
     def chunk() -> Chunk:
@@ -210,6 +212,13 @@ def _chunks(
         raise
     if rows:
         yield chunk()
+
+
+def closest_of(film: FreeFilm) -> float:
+    """The film thickness, m, at which the walls count as touching, or below which their contact is not known."""
+    if film.solved.contact is not None:
+        return film.solved.contact.closest
+    return max(CLOSEST * float(film.wall.unit[0]), film.solved.closest)
 
 
 def saved(moving: Moving) -> dict[str, Array]:

@@ -1,5 +1,6 @@
 """A march of a bearing with its answer, the uncertainty of the answer, and a file from which it goes on."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,10 +12,11 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.ranges import in_range, whole_in_range
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.bearing.march.course import Duty, refuse_unsupported
+from roughfilm.rom.bearing.march.course import Duty, film_at, refuse_unsupported
+from roughfilm.rom.bearing.march.rough_walls import walls_of
 from roughfilm.rom.bearing.march.series import Numerics, Series, run
 from roughfilm.rom.bearing.march.store import finish, keeper, kept
-from roughfilm.rom.bearing.march.summary import Summary, apart, summary_of
+from roughfilm.rom.bearing.march.summary import Summary, apart, lengths_of, path_unit, summary_of
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.solve import FIRST_COARSENING
 from roughfilm.rom.ladder.model import Progress, silent
@@ -207,8 +209,14 @@ def march_bearing(
         except ConvergenceError as fault:
             warnings.append(f"no uncertainty: the march on a coarser grid stopped ({fault})")
         else:
-            uncertainties = _uncertainties(duty, summary, series, others, cells[0])
-            quantities = {name: replace(one, uncertainty=uncertainties[name]) for name, one in quantities.items()}
+            found = _uncertainties(duty, summary, series, others, cells[0])
+            found = _with_walls(duty, summary, found, cells)
+            known = {name: error for name, error in found.items() if math.isfinite(error)}
+            quantities = {name: replace(one, uncertainty=known.get(name)) for name, one in quantities.items()}
+            if unknown := found.keys() - known.keys():
+                warnings.append(
+                    f"{', '.join(sorted(unknown))}: unknown uncertainty, as the roughness has too few points"
+                )
     march = March(
         scene=scene,
         numerics=numerics,
@@ -242,14 +250,38 @@ def _uncertainties(
     }
     times = summary.first, summary.last
     path = apart(duty, fine, others[0], *times) + apart(duty, others[0], others[1], *times)
-    unit = getattr(duty.scene.geometry, "clearance", None) or float(fine["film_min"][0])
+    unit = path_unit(duty, fine)
     least = dict.fromkeys(("eccentricity_max", "orbit_width", "orbit_height"), PATH_SAFETY * path)
     least |= {"film_min": PATH_SAFETY * path * unit, "cavitated_fraction_max": 1 / fine_cells}
+    if duty.pivoted is not None:
+        lengths = lengths_of(duty, fine)
+        least |= {f"{name}_mean": PATH_SAFETY * path * unit / length for name, length in lengths.items()}
     film, pressure = (summary.quantities[name].value for name in ("film_min", "pressure_max"))
     least["pressure_max"] = abs(pressure) * least["film_min"] / film
     for name in FRICTIONS & summary.quantities.keys():
         least[name] = FRICTION_SAFETY * path * abs(summary.quantities[name].value)
     return {name: max(one, least.get(name, 0.0)) for name, one in found.items()}
+
+
+def _with_walls(
+    duty: Duty, summary: Summary, uncertainties: Mapping[str, float], cells: tuple[int, int]
+) -> dict[str, float]:
+    """The uncertainties with those of flow factors, of their lay, and of contact pressures, at the least film."""
+    walls, quantities = walls_of(duty.scene), summary.quantities
+    if walls.factors is None:
+        return dict(uncertainties)
+    film, even = quantities["film_min"].value, film_at(duty, cells, walls).solved.halved
+    of_factors = walls.of_factors(film) + walls.of_lay(film, even=even)
+    of_contact, moved = walls.of_contact(film)
+    relative = dict.fromkeys(quantities, of_factors)
+    relative |= {name: of_contact for name in quantities if name.startswith("contact")}
+    if duty.scene.asperities is not None and quantities["friction_mean"].value:
+        boundary = duty.scene.asperities.friction * quantities["contact_load_mean"].value
+        share = min(abs(boundary / quantities["friction_mean"].value), 1.0)
+        relative |= dict.fromkeys(FRICTIONS & quantities.keys(), of_factors + share * of_contact)
+    more = {name: abs(quantities[name].value) * part if part else 0.0 for name, part in relative.items()}
+    more["film_min"] += moved
+    return {name: error + more[name] for name, error in uncertainties.items()}
 
 
 def entries_of(quantities: Mapping[str, Quantity]) -> dict[str, dict[str, float | str]]:

@@ -28,7 +28,17 @@ EXTREMES = {
     "pressure_max": ("peak pressure", "pressure_max", max),
     "cavitated_fraction_max": ("largest cavitated fraction", "cavitated_fraction", max),
 }
+CONTACT_EXTREMES = {
+    "contact_pressure_max": ("largest contact pressure", "contact_pressure_max", max),
+    "contact_area_max": ("largest fraction of the area in contact", "contact_area", max),
+}
+"""Titles, columns and extremes of walls that may touch."""
+
 MEANS = {
+    "pivot_film": "mean film at the pivot",
+    "slope_x": "mean slope along the sliding",
+    "slope_y": "mean slope across the sliding",
+    "contact_load": "mean load of asperities",
     "friction": "mean friction",
     "torque": "mean torque",
     "power_loss": "mean power loss",
@@ -66,7 +76,8 @@ def summary_of(duty: Duty, series: Series) -> Summary:
     first, last, state, settled = _window(duty, series)
     inside = series.time >= first - 1e-9 * (last - first)
     quantities, titles = {}, {}
-    for name, (title, column, extreme) in EXTREMES.items():
+    extremes = EXTREMES | (CONTACT_EXTREMES if "contact_load" in series.units else {})
+    for name, (title, column, extreme) in extremes.items():
         quantities[name] = Quantity(value=float(extreme(series[column][inside])), unit=series.units[column])
         titles[name] = title
     means = {name: title for name, title in MEANS.items() if name in series.units}
@@ -108,7 +119,22 @@ def _places(duty: Duty, series: Series) -> Array:
     """The coordinates of the wall over the steps, over the clearance or the first film, shape (steps, k)."""
     if duty.lobes:
         return np.stack([series["eccentricity_x"], series["eccentricity_y"]], axis=1)
-    return np.asarray(series["film"][:, None] / series["film"][0])
+    lengths = lengths_of(duty, series)
+    return np.stack([series[name] * lengths[name] for name in lengths], axis=1) / path_unit(duty, series)
+
+
+def path_unit(duty: Duty, series: Series) -> float:
+    """The clearance, or the first film, m, to which paths are related."""
+    clearance = getattr(duty.scene.geometry, "clearance", None)
+    return float(clearance or series["film" if "film" in series.units else "pivot_film"][0])
+
+
+def lengths_of(duty: Duty, series: Series) -> dict[str, float]:
+    """The motion of the wall per change of its coordinates, m/rad of slopes, by the names of the coordinates."""
+    if duty.pivoted is None:
+        return {"film": 1.0}
+    lengths = {"pivot_film": 1.0, "slope_x": duty.pivoted.length, "slope_y": duty.pivoted.width or 0.0}
+    return {name: length for name, length in lengths.items() if name in series.units}
 
 
 def _window(duty: Duty, series: Series) -> tuple[float, float, str, bool | None]:

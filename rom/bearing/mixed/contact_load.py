@@ -40,7 +40,9 @@ def asperity_load(shape: Shape, grid: Grid, asperities: Asperities) -> AsperityL
     force, highest, area = np.zeros(grid.shape), 0.0, 0.0
     for x, y, quarter in quarters(shape, grid):
         separation = shape.thickness(x, y)
-        near = (separation < asperities.touching) & (quarter > 0)
+        near = separation < asperities.touching
+        if shape.idle:
+            near &= quarter > 0
         if near.any():
             pressure = asperities.contact_pressure(separation[near])
             force[near] += quarter[near] * pressure

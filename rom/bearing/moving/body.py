@@ -4,10 +4,16 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, Field
 
-from roughfilm.contact.foundation.entries import InUnit, Length, Part, plain_number
+from roughfilm.contact.foundation.entries import Angle, InUnit, Length, Part, plain_number
 
 Number = Annotated[float, BeforeValidator(plain_number)]
 Velocity = Annotated[float, InUnit("m/s", any_sign=True)]
+Inertia = Annotated[float, InUnit("kg*m^2")]
+
+
+def _about_both_axes(given: object) -> object:
+    """The moments of inertia about the axes along x and y; a single one is that about both."""
+    return given if isinstance(given, list | tuple) else [given, given]
 
 
 class Start(Part):
@@ -17,11 +23,13 @@ class Start(Part):
     ----------
     eccentricity : position of a shaft in lobes along x and y over the clearance.
     film : least film thickness of other bearings, m.
+    slopes : slopes along and across the sliding of a pad about a pivot, rad; 0 beside a film.
     velocity : velocity of the shaft along x and y, or at which the walls part, m/s.
     """
 
     eccentricity: tuple[Number, Number] | None = None
     film: Length | None = None
+    slopes: tuple[Angle, Angle] | None = None
     velocity: Annotated[tuple[Velocity, ...], Field(min_length=1, max_length=2)] | None = None
 
 
@@ -32,9 +40,12 @@ class Body(Part):
     ----------
     mass : mass that the bearing carries, kg; without it the forces balance at all times.
     unbalance : mass times its distance from the axis, of a shaft in lobes, kg m; at the first time it lies along x.
+    inertia : moments of inertia of a pad about the axes along x and y through its pivot, kg m²; a single one is that
+        about both. Without them the moments balance at all times.
     start : where a march begins.
     """
 
     mass: Annotated[float, InUnit("kg")] | None = None
     unbalance: Annotated[float, InUnit("kg*m")] | None = None
+    inertia: Annotated[tuple[Inertia, Inertia], BeforeValidator(_about_both_axes)] | None = None
     start: Start | None = None

@@ -40,6 +40,8 @@ UNITS: Mapping[str, tuple[str, ...]] = {
     "film": ("m",),
     "eccentricity_x": ("1",),
     "eccentricity_y": ("1",),
+    "moment_x": ("N*m",),
+    "moment_y": ("N*m",),
 }
 """The columns of a table with their SI units; "N/m" is that of an infinitely wide bearing."""
 
@@ -50,6 +52,7 @@ Time = Annotated[float, InUnit("s", any_sign=True)]
 Speed = Annotated[float, InUnit("m/s", any_sign=True)]
 Force = Annotated[float, InUnit("N", any_sign=True)]
 Angle = Annotated[float, InUnit("rad", any_sign=True)]
+Moment = Annotated[float, InUnit("N*m", any_sign=True)]
 Rows = Annotated[tuple[Time, ...], Field(min_length=MIN_ROWS, max_length=MAX_ROWS)]
 
 
@@ -68,8 +71,10 @@ class OverTime(Part):
     load : size of the load, N (N/m of an infinitely wide bearing, in a file).
     angle : direction of the load on a shaft in lobes, from the x axis towards the y axis, rad.
     load_x, load_y : components of the load on a shaft in lobes, N, in place of load and angle.
-    film : least film thickness, m, which is then given.
+    film : least film thickness, m, which is then given; of a pad about a pivot the film at the pivot.
     eccentricity_x, eccentricity_y : position of a shaft in lobes over the clearance, which is then given.
+    moment_x, moment_y : moments on a pad about a pivot, N m, as those of the load; one that is left out is that of the
+        load.
     period : time after which the table repeats, s; without it the table ends with its last row.
 
     Source: Fritsch and Carlson 1980, doi:10.1137/0717021, for the cubics.
@@ -86,6 +91,8 @@ class OverTime(Part):
     film: tuple[Length, ...] | None = None
     eccentricity_x: tuple[Number, ...] | None = None
     eccentricity_y: tuple[Number, ...] | None = None
+    moment_x: tuple[Moment, ...] | None = None
+    moment_y: tuple[Moment, ...] | None = None
     period: Annotated[float, InUnit("s")] | None = None
 
     @model_validator(mode="after")
@@ -111,7 +118,7 @@ class OverTime(Part):
     @property
     def places_or_loads(self) -> bool:
         """Whether the table has a load or a path."""
-        return not self.table.columns.keys() <= {"speed", "angle"}
+        return not self.table.columns.keys() <= {"speed", "angle", "moment_x", "moment_y"}
 
     @property
     def table(self) -> "Table":

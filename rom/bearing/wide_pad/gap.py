@@ -33,7 +33,8 @@ def film_obstacle(scene: Bearing) -> str | None:
     """
     geometry, lubricant, theta = scene.geometry, scene.lubricant, scene.boundary.inlet.theta
     if not isinstance(geometry, Pad):
-        return f"the flow is resolved across the film of pads only, not of a {geometry.shape}"
+        named = "a shaft in lobes" if geometry.shape == "lobes" else f"a {geometry.shape}"
+        return f"the flow is resolved across the film of pads only, not of {named}"
     if not scene.wide:
         return "the flow is resolved across the film of infinitely wide pads only; leave out geometry.width for one"
     if scene.load is not None:

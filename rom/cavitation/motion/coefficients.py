@@ -44,9 +44,10 @@ def coefficients(film: MovingFilm, at: Instant, *, speed: float) -> Coefficients
     drive = Drive(speed=speed, force=np.zeros(count), stiffness=nothing, free=np.ones(count, dtype=bool))
     trial = trial_at(film, at, drive).sample().evaluate()
     areas, thickness = film.grid.areas, trial.faces.thickness
+    gap, rate = film.gap(thickness), film.gap_rate(thickness)
     excess, slope = film.problem.compression(trial.pressure)
-    by_unknown = areas * thickness * np.where(trial.kind == FILM, slope, np.where(trial.kind == CAVITY, 1.0, 0.0))
-    by_place = (areas * (trial.fill + excess))[..., None] * film.at_nodes
+    by_unknown = areas * gap * np.where(trial.kind == FILM, slope, np.where(trial.kind == CAVITY, 1.0, 0.0))
+    by_place = (areas * rate * (trial.fill + excess))[..., None] * film.at_nodes
     still = trial.respond(-trial.by_coordinates(central=True))
     moving = trial.respond(-(by_place + by_unknown[..., None] * still.change))
     stiffness = trial.contact.stiffness - trial.force_of(still)

@@ -28,6 +28,10 @@ class ContactLaw(Protocol):
         """The contact pressure, Pa: 0 without contact, strictly falling in contact."""
         ...
 
+    def mean_gap(self, separation: Array) -> Array:
+        """The mean gap, m: the volume between the walls over the area."""
+        ...
+
 
 @dataclass(frozen=True, kw_only=True)
 class ContactForce:

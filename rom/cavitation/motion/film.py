@@ -20,6 +20,9 @@ from roughfilm.rom.cavitation.shape import Shape
 TINY = float(np.finfo(float).tiny)
 """Distance of walls, m, in place of one that is 0 or less by round-off."""
 
+GAP_STEP = 1e-5
+"""Step of the separation for the derivative of the mean gap, over the largest approach."""
+
 Normal = Callable[[Array, Array], Array]
 """normal(x, y), the derivative ∂h/∂q of the film thickness by a coordinate, vectorised."""
 
@@ -38,6 +41,7 @@ class MovingFilm:
     halved : whether y = low is a line of symmetry, through which nothing flows, in place of a side.
     ruptures : whether the film cavitates.
     contact : the contact pressure over the film thickness; None of walls that do not touch.
+    closest : smallest film thickness of walls that do not touch, m, such as that of which flow factors are known.
     turns : whether each coordinate is the tilt of a pad, on which no pressure in the gaps beside it acts; by default
         none is.
     """
@@ -50,6 +54,7 @@ class MovingFilm:
     halved: bool = False
     ruptures: bool = True
     contact: ContactLaw | None = None
+    closest: float = 0.0
     turns: NDArray[np.bool_] | None = None
 
     @cached_property
@@ -104,6 +109,17 @@ class MovingFilm:
         thickness = (part.reshape(shape) for part, shape in zip(parts, shapes, strict=True))
         return faces_of(thickness, self.shape(place), self.grid)
 
+    def gap(self, thickness: Array) -> Array:
+        """The mean gap at film thicknesses, m; where asperities are flattened it exceeds the separation."""
+        return thickness if self.contact is None else self.contact.mean_gap(thickness)
+
+    def gap_rate(self, thickness: Array) -> Array:
+        """The derivative of the mean gap by the film thickness, 1 without contact."""
+        if self.contact is None:
+            return np.ones_like(thickness)
+        step = GAP_STEP * (self.contact.touching - self.contact.closest)
+        return np.asarray((self.gap(thickness + step) - self.gap(thickness)) / step)
+
     def network(
         self,
         faces: Faces,
@@ -126,6 +142,8 @@ class MovingFilm:
             storage=storage,
             ruptures=self.ruptures,
         )
+        if self.contact is not None and storage is not None:
+            net = replace(net, storage=self.grid.areas * self.gap(faces.thickness) * storage[0])
         if net.oblique is not None:
             raise InputError(
                 "roughness: got an averaged oblique lay for walls that move freely; take roughness along or across the "
@@ -170,7 +188,7 @@ class MovingFilm:
     def room(self, place: Array) -> float:
         """The least film thickness minus the smallest that has a solution, m, where the film is sampled.
 
-        The latter is 0, or with contact the smallest separation whose contact pressure is known.
+        The latter is ``closest``, or with contact the smallest separation whose contact pressure is known.
         """
         return min(float(gap.min()) for gap, _ in self._gaps(place))
 
@@ -179,16 +197,17 @@ class MovingFilm:
         return max(float((-(modes @ moved) / np.maximum(gap, TINY)).max()) for gap, modes in self._gaps(place))
 
     def _gaps(self, place: Array) -> Iterator[tuple[Array, Array]]:
-        """The distances of :meth:`room` and ∂h/∂q: at the nodes, and with contact wherever the film is sampled.
+        """The distances of :meth:`room` and ∂h/∂q: at the nodes, and of rough walls wherever the film is sampled.
 
         The smallest separation of flattened walls may be as near between nodes as it is far from 0 at them.
         """
-        if self.contact is None:
+        smallest = self.closest if self.contact is None else self.contact.closest
+        if self.contact is None and smallest == 0:
             rest, modes = self._beside
             yield rest + modes @ place, self.at_nodes
             return
         for rest, modes in (self._sampled[:2], self._between, self._quarters[:2]):
-            yield rest + modes @ place - self.contact.closest, modes
+            yield rest + modes @ place - smallest, modes
 
     @cached_property
     def _between(self) -> tuple[Array, Array]:
@@ -208,8 +227,8 @@ class MovingFilm:
         """The force on each coordinate by a pressure at each node, m² (m³ of an angle), shape (nodes, coordinates)."""
         areas = np.repeat(self.grid.areas[..., None], len(self.normals), axis=-1)
         if self.problem.shape.idle and self.turns is not None:
-            parts = [area for _, _, area in quarters(self.problem.shape, self.grid)]
-            areas[..., self.turns] = np.sum(parts, axis=0)[..., None]
+            with_film = np.sum([area for _, _, area in quarters(self.problem.shape, self.grid)], axis=0)
+            areas[..., self.turns] = with_film[..., None]
         return self.sides * (areas * self.at_nodes).reshape(-1, len(self.normals))
 
     @cached_property

@@ -93,7 +93,7 @@ class Moving:
 def held(film: MovingFilm, instant: Instant) -> Array:
     """θh at the nodes, m."""
     excess = film.problem.compression(instant.state.pressure)[0]
-    return np.asarray((instant.state.fill + excess) * instant.faces.thickness)
+    return np.asarray((instant.state.fill + excess) * film.gap(instant.faces.thickness))
 
 
 def begun(film: MovingFilm, instant: Instant, *, time: float = 0.0, velocity: Array | None = None) -> Moving:

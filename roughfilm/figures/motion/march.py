@@ -52,11 +52,12 @@ def room(scene: Bearing) -> tuple[Array, Array]:
 
 def over_time(march: March) -> Figure:
     """Least film, peak pressure, load, friction, power, flows and cavities over time."""
-    figure, panels = new_figure((11.4, 8.2), 3, 2, sharex=True)
+    pivoted = "pivot_film" in march.series.units
+    figure, panels = new_figure((11.4, 10.8 if pivoted else 8.2), 4 if pivoted else 3, 2, sharex=True)
     scale, unit = (1e3, "ms") if march.time[-1] < 1 else (1.0, "s")
     time = scale * march.time
     units = march.series.units
-    film, pressure, load, power, flows, cavities = panels.ravel()
+    film, pressure, load, power, flows, cavities, *others = panels.ravel()
     film.plot(time, 1e6 * march["film_min"], color=COLOURS[0])
     film.set(ylabel="least film, µm")
     pressure.plot(time, 1e-6 * march["pressure_max"], color=COLOURS[1])
@@ -89,6 +90,12 @@ def over_time(march: March) -> Figure:
     flows.set(ylabel="flow, mm²/s" if wide else "flow, ml/min")
     cavities.plot(time, 100 * march["cavitated_fraction"], color=COLOURS[2])
     cavities.set(ylabel="cavitated, %")
+    if "contact_load" in units:
+        load.plot(time, 1e-3 * march["contact_load"], color="#888888", linewidth=0.8, label="asperities")
+    if pivoted:
+        film.plot(time, 1e6 * march["pivot_film"], color=COLOURS[3], label="at the pivot")
+        film.legend(fontsize=8)
+        _pad(march, time, *others)
     for axes in panels.ravel():
         _shade(axes, scale * march.first, scale * march.last)
     for axes in panels[-1]:
@@ -96,6 +103,26 @@ def over_time(march: March) -> Figure:
     for axes in (load, power, flows):
         axes.legend(fontsize=8, ncols=2)
     return figure
+
+
+def _pad(march: March, time: Array, slopes: Axes, moments: Axes) -> None:
+    """The slopes of a pad about its pivot, and the moments on it."""
+    units = march.series.units
+    for along, moment, colour, name in (
+        ("slope_x", "moment_y", COLOURS[0], "along"),
+        ("slope_y", "moment_x", COLOURS[3], "across"),
+    ):
+        if along not in units:
+            continue
+        slopes.plot(time, 1e3 * march[along], color=colour, label=name)
+        moments.plot(time, march[f"load_{moment}"], color=colour, label=f"load, about {moment[-1]}")
+        moments.plot(
+            time, -march[f"film_{moment}"], color=colour, linestyle=":", label=f"minus film, about {moment[-1]}"
+        )
+    slopes.set(ylabel="slope, mrad")
+    moments.set(ylabel="moment, N m" if units["load_moment_y"] == "N*m" else "moment per width, N")
+    for axes in (slopes, moments):
+        axes.legend(fontsize=8)
 
 
 def _shade(axes: Axes, first: float, last: float) -> None:

@@ -34,6 +34,7 @@ RUNS = {
     "compare": ["compare contact.toml --out compared"],
     "stribeck": [f"stribeck rough_washer.toml {COARSE} --loads 1MPa --speeds 20rpm,500rpm --out washer"],
     "dynamics": ["dynamics grooved_journal.toml --resolution 32 --speeds 1000rpm,3000rpm --out rotor"],
+    "march": ["march unbalanced_rotor.toml --cells 16,8 --end 5ms --no-uncertainty --out march{width}"],
     "effects": ["effects parabolic_slider.toml --resolution 64 --out effects"],
     "leakage": ["leakage seal.toml --loads 1kPa,20kPa --out leakage"],
     "surface": ["surface rough.toml --out cell.h5"],
@@ -54,7 +55,7 @@ RUNS = {
 }
 """Small examples of the commands; report needs the sweep of batch before it, collect the cases of generate."""
 
-ONE_WIDTH = {"doctor", "compare", "leakage", "report", "stribeck", "windows"}
+ONE_WIDTH = {"doctor", "compare", "dynamics", "leakage", "march", "report", "stribeck", "windows"}
 """Commands that take seconds, which are run in the narrower terminal alone."""
 
 FILES = {"new", "schema"}
@@ -68,8 +69,8 @@ SLOW = {"charts", "stability"}
 def place(tmp_path_factory):
     """A directory with small scenes."""
     place = tmp_path_factory.mktemp("width")
-    for name in ("pocket.toml", "rough_washer.toml", "parabolic_slider.toml"):
-        shutil.copy(SCENES / name, place)
+    for name in ("pocket", "rough_washer", "parabolic_slider", "grooved_journal", "unbalanced_rotor"):
+        shutil.copy(SCENES / f"{name}.toml", place)
     shutil.copy(STUDIES / "pocket.toml", place / "study.toml")
     for name, text in {"rough.toml": SURFACE, "seal.toml": SEAL, "contact.toml": CONTACT}.items():
         (place / name).write_text(text)

@@ -1,5 +1,5 @@
 """Journal under a load that turns
-=================================
+===============================
 
 Which path does a shaft follow whose load turns, as that of an unbalance or of a crank? The load turns at half of the
 speed of the shaft: the wedge does not carry then, and only the squeezing of the film keeps the shaft from the bore. A
@@ -17,7 +17,7 @@ entries = {
     "geometry": {"shape": "lobes", "radius": "25 mm", "clearance": "25 um", "width": "25 mm"},
     "lubricant": {"viscosity": "10 mPa*s", "cavitation_pressure": "-0.1 MPa"},
 }
-fig, axes = plt.subplots(figsize=(5.5, 5), layout="constrained")
+fig, axes = plt.subplots(figsize=(6, 5), layout="constrained")
 least = {}
 for name, turns in (("standing", 0), ("half speed", 1)):
     table = {"time": ["0 ms", "20 ms", "40 ms"], "load": ["1 kN"] * 3, "period": "40 ms"}

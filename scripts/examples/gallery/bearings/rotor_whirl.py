@@ -1,5 +1,5 @@
 """Whirl of a rotor
-=================
+================
 
 At which speed does a rotor begin to whirl? A rotor with 4000 kg in each bearing is stable as long as its mass is below
 the critical one, which falls with the speed. A lemon bore, whose halves have half of the clearance as preload, raises

@@ -59,6 +59,14 @@ def test_at_rest_asperities_alone_carry_the_shaft(tips):
     assert shaft["attitude_angle"].value == pytest.approx(0, abs=1e-6)
 
 
+@pytest.mark.parametrize("geometry", [GROOVED, {"shape": "pivoted", "length": "20 mm", "width": "20 mm", "pivot": 0.6}])
+def test_walls_with_cavities_between_them_rest_on_their_asperities(tips, geometry):
+    """No flow determines the cavities that are left where the walls were squeezed together."""
+    result = solved(tips.scene(geometry, load={"force": "1 kN"}, motion={"speed": "0 m/s"}), cells=32)
+    assert result["contact_share"].value == pytest.approx(1, rel=1e-6)
+    assert result["load"].value == pytest.approx(1000, rel=1e-6)
+
+
 def test_a_load_beyond_the_asperities_is_one_line(tips):
     film = film_of(tips, BORE, (24, 12), motion={"speed": "0 m/s"}, load={"force": "5 kN"}, **FED)
     with pytest.raises(InputError, match=r"whose contact pressure is known, the asperities carry .* larger loads"):
