@@ -359,6 +359,11 @@ class Bearing(Scene):
                 f"load.moment_{'x' if load.moment_x else 'y'}: got one for the {wide}shape {geometry.shape!r}; pivoted "
                 "pads with a width have moments"
             )
+        if geometry.slopes is not None:
+            raise ValueError(
+                f"load.moment_{'x' if load.moment_x else 'y'}: got one beside geometry.slopes, which no moment "
+                "changes; leave one of them out"
+            )
         if load.moment_x and not geometry.tilts_across:
             raise ValueError("load.moment_x: got one for a pivot with line = true, which takes it; leave it out")
 

@@ -128,8 +128,9 @@ def _bars(container: BarContainer) -> tuple[str, Array, Array, None, str]:
 
 
 def _half_lengths(bars: Sequence[LineCollection], axis: int) -> Array:
-    """Half of the length of each bar of uncertainty along an axis."""
-    return np.array([np.ptp(segment[:, axis]) / 2 for one in bars[-1:] for segment in one.get_segments()])
+    """Half of the length of each bar of uncertainty along an axis; 0 of an infinite one, which is not drawn."""
+    segments = [np.asarray(segment) for one in bars[-1:] for segment in one.get_segments()]
+    return np.array([np.ptp(segment[:, axis]) / 2 if segment.size else 0.0 for segment in segments])
 
 
 def _label(artist: Any) -> str:

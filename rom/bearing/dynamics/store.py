@@ -16,9 +16,8 @@ from roughfilm.contact.foundation.writing.kinds import beginning_with
 from roughfilm.rom.bearing.dynamics.point import ENTRIES, UNITS, DynamicPoint
 from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve, dynamics
 from roughfilm.rom.bearing.geometry.journal import Shaft
-from roughfilm.rom.bearing.mixed.curves import curve_inputs
+from roughfilm.rom.bearing.mixed.curves import by_operation, curve_inputs, keeping
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.homogenization.table.resume import regular_saves
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.studies.table import table_beginning
 
@@ -52,7 +51,6 @@ def point_inputs(scene: Bearing, resolution: int, frequency_ratio: float) -> Inp
         resolution,
         frequency_ratio=frequency_ratio,
         direction=math.copysign(1.0, scene.motion.speed),
-        load_angle=None if scene.load is None else scene.load.angle,
     )
     settings = {name: entry for name, entry in inputs.settings.items() if not name.startswith("body.")}
     return Inputs(heights=inputs.heights, spacing=inputs.spacing, settings=settings)
@@ -138,17 +136,12 @@ def resumed_dynamics(
     """
     inputs = point_inputs(scene, resolution, frequency_ratio)
     known = known_points(out, inputs)
-    points = {(point.pressure, point.speed): point for point in known}
+    points = by_operation(known)
 
     def save() -> None:
         save_points(out, inputs, tuple(points.values()))
 
-    with regular_saves(save, lambda: f"stopped: {len(points)} points; the same command goes on") as save_regularly:
-
-        def keep(point: DynamicPoint) -> None:
-            points[point.pressure, point.speed] = point
-            save_regularly()
-
+    with keeping(points, save) as keep:
         curves = dynamics(
             scene,
             speeds,
@@ -161,8 +154,8 @@ def resumed_dynamics(
             progress=progress,
         )
     save()
-    requested = {(point.pressure, point.speed) for curve in curves for point in curve.points}
-    return curves, len(requested & {(point.pressure, point.speed) for point in known})
+    requested = by_operation(point for curve in curves for point in curve.points)
+    return curves, len(requested.keys() & by_operation(known).keys())
 
 
 def write_csv(path: Path, scene: Bearing, curves: Sequence[DynamicCurve]) -> None:

@@ -26,7 +26,7 @@ GRIDS = 4
 """Largest number of grids, the coarser ones for the uncertainty."""
 
 MIN_CELLS = 24
-"""Smallest number of cells along the film of a coarser grid."""
+"""Smallest number of cells along the film of a coarser grid; one grid is coarser in any case."""
 
 ACROSS = 2
 """Cells along the film over those across it."""
@@ -78,7 +78,8 @@ def placed(film: FreeFilm, instant: Instant) -> Bearing:
 def sizes(cells: int) -> list[tuple[int, int]]:
     """Cells along and across the film from the coarsest to the finest grid."""
     along = [size for size, _ in coarsening((cells, 1), wide=True)][-GRIDS:]
-    return [(size, max(2, round(size / ACROSS))) for size in along if size >= MIN_CELLS or size == cells]
+    kept = [size for size in along if size >= MIN_CELLS]
+    return [(size, max(2, round(size / ACROSS))) for size in (kept if len(kept) > 1 else along[-2:])]
 
 
 def solve_free(

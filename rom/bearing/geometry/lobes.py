@@ -7,6 +7,7 @@ from typing import Annotated, Literal, Self
 
 import numpy as np
 import scipy
+from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
@@ -187,6 +188,12 @@ class Lobes(Shaft, MovingWall):
         """The number from 0 of the lobe at positions x; that before a gap inside it."""
         turned = np.mod(x / self.radius, 2 * math.pi) if not self.single else x / self.radius
         return np.asarray(np.clip(np.floor(turned * self.lobes / (2 * math.pi) + 1e-12), 0, self.lobes - 1))
+
+    def in_gap(self, x: Array) -> NDArray[np.bool_]:
+        """Whether positions x lie in a gap between lobes, or at the end of a lobe before or behind one."""
+        along = self._from(x, 0.0)
+        ends = (along <= JOINT) | (along >= self.turn - JOINT)
+        return np.asarray(ends & (not self.joined and not self.single))
 
     def _from(self, x: Array, position: float) -> Array:
         """The angle from the given position, 0 to 1, along the lobe at positions x, rad."""

@@ -1,10 +1,11 @@
 """Stribeck curves of a scene with files for the table and the points, from which a stopped sweep continues."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -12,16 +13,17 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, joint_mismatch
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.kept import kept_asperities
 from roughfilm.rom.bearing.mixed.store import known_points, save_points
-from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint, stribeck
+from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, stribeck
 from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.roughness import RoughSurface
-from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.scene import Bearing, BearingLoad
 from roughfilm.rom.homogenization.conductance import FaceRule
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 from roughfilm.rom.homogenization.table.resume import regular_saves, resumed_table
@@ -43,8 +45,28 @@ MAX_EXTENSIONS = 12
 CLOSURE_RATIO = 1.02
 """Ratio of the load that closes the gap to the largest load of the table below which the table is not extended."""
 
-IRRELEVANT = ("name", "motion.speed", "geometry.film", "geometry.eccentricity", "lubricant.density")
+IRRELEVANT = ("name", "motion.speed", "geometry.film", "geometry.eccentricity")
 """Entries of a scene on which the curves do not depend."""
+
+OF_DENSITY = ("lubricant.density",)
+"""The same of a scene without a ram pressure and without orifices."""
+
+
+class OperatingPoint(Protocol):
+    """A point of a sweep over speed and load."""
+
+    @property
+    def pressure(self) -> float:
+        """The load over the nominal area, Pa."""
+        ...
+
+    @property
+    def speed(self) -> float:
+        """The sliding speed, m/s."""
+        ...
+
+
+PointT = TypeVar("PointT", bound=OperatingPoint)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -237,9 +259,30 @@ def curve_inputs(scene: Bearing, wall: Wall | None, resolution: int, **more: Any
     entries = {name: entry for name, entry in scene_entries(scene).items() if name != "load"}
     source = {} if wall is None else wall.source
     settings = {**_flat(entries), **source, **more, "resolution": resolution, "code": code()}
-    for name in IRRELEVANT:
+    by_density = scene.boundary.inlet.ram_factor or any(supply.orifice is not None for supply in scene.supply)
+    for name in (*IRRELEVANT, *(() if by_density else OF_DENSITY)):
         settings.pop(name, None)
+    if isinstance(scene.geometry, MovingWall):
+        load = scene.load or BearingLoad.model_construct()
+        settings |= {"angle": load.angle, "moment_x": load.moment_x, "moment_y": load.moment_y}
     return Inputs(heights=np.zeros((0, 0)), spacing=(1.0, 1.0), settings=settings)
+
+
+@contextmanager
+def keeping(points: dict[tuple[float, float], PointT], save: Callable[[], None]) -> Iterator[Callable[[PointT], None]]:
+    """Keep each new point of a sweep beside those known, by load and speed, and save them regularly and at the end."""
+    with regular_saves(save, lambda: f"stopped: {len(points)} points; the same command goes on") as save_regularly:
+
+        def keep(point: PointT) -> None:
+            points[point.pressure, point.speed] = point
+            save_regularly()
+
+        yield keep
+
+
+def by_operation(points: Iterable[PointT]) -> dict[tuple[float, float], PointT]:
+    """The points of a sweep by their load, Pa, and speed, m/s."""
+    return {(point.pressure, point.speed): point for point in points}
 
 
 def resumed_curves(
@@ -269,17 +312,8 @@ def resumed_curves(
     """
     inputs = curve_inputs(scene, wall, resolution)
     known = known_points(out, inputs)
-    points = {(point.pressure, point.speed): point for point in known}
-
-    def save() -> None:
-        save_points(out, inputs, tuple(points.values()))
-
-    with regular_saves(save, lambda: f"stopped: {len(points)} points; the same command goes on") as save_regularly:
-
-        def keep(point: StribeckPoint) -> None:
-            points[point.pressure, point.speed] = point
-            save_regularly()
-
+    points = by_operation(known)
+    with keeping(points, lambda: save_points(out, inputs, tuple(points.values()))) as keep:
         curves = stribeck(
             scene,
             speeds,
@@ -291,8 +325,8 @@ def resumed_curves(
             progress=progress,
         )
     save_points(out, inputs, tuple(points.values()), curves)
-    requested = {(point.pressure, point.speed) for curve in curves for point in curve.points}
-    return curves, len(requested & {(point.pressure, point.speed) for point in known})
+    requested = by_operation(point for curve in curves for point in curve.points)
+    return curves, len(requested.keys() & by_operation(known).keys())
 
 
 def _flat(entries: Mapping[str, Any], before: str = "") -> dict[str, Any]:

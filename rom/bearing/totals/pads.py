@@ -11,15 +11,16 @@ CARRYING = 1e-6
 
 
 def pad_forces(geometry: Lobes, x: Array, force: Array) -> Array:
-    """The force on each lobe, N (N/m): the sum over its nodes.
+    """The force on each lobe, N (N/m): the sum over its nodes, without those in the gap behind it.
 
     Parameters
     ----------
     x : positions of the nodes in the coordinates of the scene, m.
     force : force of the film on each node, N, shape (nx, ny).
     """
-    lobes = geometry.lobe(x).astype(int)
-    return np.asarray(np.bincount(lobes, weights=force.sum(axis=1), minlength=geometry.lobes), dtype=np.float64)
+    lobes, inside = geometry.lobe(x).astype(int), ~geometry.in_gap(x)
+    carried = np.where(inside, force.sum(axis=1), 0.0)
+    return np.asarray(np.bincount(lobes, weights=carried, minlength=geometry.lobes), dtype=np.float64)
 
 
 def unloaded(geometry: Lobes, x: Array, force: Array) -> list[int]:

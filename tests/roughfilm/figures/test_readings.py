@@ -37,6 +37,15 @@ def test_points_are_where_they_are_drawn_with_their_values_and_uncertainty(scale
     np.testing.assert_allclose(points[:, 2:], np.stack([x, y, bars], axis=1))
 
 
+def test_a_point_with_an_infinite_uncertainty_has_no_bar():
+    figure, axes = new_figure((5, 4))
+    axes.errorbar([1.0, 2.0], [3.0, 4.0], [0.1, np.inf], label="computed")
+    axes.set(xlabel="load, MPa", ylabel="gap, µm")
+    (panel,) = read(figure)
+    points = points_of(panel["series"][0])
+    np.testing.assert_allclose(points[:, 2:], [[1.0, 3.0, 0.1], [2.0, 4.0, 0.0]])
+
+
 def test_a_long_series_is_thinned_and_keeps_its_extreme_values():
     figure, axes = new_figure((5, 4))
     x = np.linspace(0, 1, 100_000)

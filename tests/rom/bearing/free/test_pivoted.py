@@ -232,6 +232,13 @@ def test_pads_without_an_equilibrium_say_where_the_film_closes(geometry, message
             {"geometry": PAD | {"pivot": 0.6, "line": True}, "load": {"pressure": "1 MPa", "moment_x": "1 N*m"}},
             "load.moment_x",
         ),
+        (
+            {
+                "geometry": PAD | {"pivot": 0.6, "slopes": ["-0.5 mrad", "0 rad"]},
+                "load": {"pressure": "1 MPa", "moment_y": "1 N*m"},
+            },
+            "load.moment_y: got one beside geometry.slopes",
+        ),
     ],
 )
 def test_faults_of_pads_are_one_line(entries, message):

@@ -126,3 +126,8 @@ def test_an_infinitely_wide_bore_has_the_load_per_width():
     assert result["load_per_width"].value == pytest.approx(2e5, rel=1e-8)
     line = solved(GROOVED | {"width": "5 m"}, cells=64, model="infinitely_wide", load={"force": "1 MN"})
     close(line, result, "film_min", "attitude_angle")
+
+
+def test_a_coarse_film_has_an_uncertainty_too():
+    result = solved(GROOVED, cells=32)
+    assert 0 < result["film_min"].uncertainty < 0.1 * result["film_min"].value

@@ -10,9 +10,8 @@ from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.ladder import find
 from roughfilm.rom.cavitation.grid import grid
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
-from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
+from roughfilm.rom.cavitation.motion.coupled import Drive, full_film, settled
 from roughfilm.rom.cavitation.motion.film import MovingFilm
-from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 
@@ -124,22 +123,7 @@ def stiffness(restrictor, film):
         inflows=problem.inflows,
         ruptures=False,
     )
-    place, pressures = np.array([film]), np.array([SUPPLY / 2])
-    faces = moving.faces(place)
-    net = moving.network(faces, pressures, speed=0.0)
-    state = State(pressure=np.where(net.fixed, net.pressure, 0.0), fill=np.ones(net.shape))
-    start = Instant(
-        place=place,
-        pressures=pressures,
-        state=state,
-        kind=kinds(net, state),
-        faces=faces,
-        network=net,
-        balance=np.zeros(net.shape),
-        residual=math.inf,
-        force_residual=math.inf,
-        iterations=0,
-    )
+    start = full_film(moving, np.array([film]))
     drive = Drive(speed=0.0, force=np.zeros(1), stiffness=np.zeros((1, 1)), free=np.zeros(1, dtype=bool))
     instant = settled(moving, start, drive, tolerance=1e-12)
     found = coefficients(moving, instant, speed=0.0)
