@@ -40,8 +40,20 @@ class Inputs:
         ----------
         stored : the settings in the file.
         """
-        for name in sorted(stored.keys() | self.settings.keys()):
-            own, other = self.settings.get(name), stored.get(name)
-            if own != other:
-                return "of another version of roughfilm" if name == "code" else f"with {name} {other!s:.60}, not {own}"
-        return "of another surface"
+        name, other, own = _first_difference(stored, self.settings) or ("", None, None)
+        if not name:
+            return "of another surface"
+        return "of another version of roughfilm" if name == "code" else f"with {name} {other!s:.60}, not {own!s:.60}"
+
+
+def _first_difference(stored: Mapping[str, Any], wanted: Mapping[str, Any]) -> tuple[str, Any, Any] | None:
+    """The first key, dotted in nested tables, that has another entry, with its entry in each; None if all agree."""
+    for name in sorted(stored.keys() | wanted.keys()):
+        one, other = stored.get(name), wanted.get(name)
+        if one == other:
+            continue
+        if not (isinstance(one, Mapping) and isinstance(other, Mapping)):
+            return name, one, other
+        if (inner := _first_difference(one, other)) is not None:
+            return f"{name}.{inner[0]}", inner[1], inner[2]
+    return None
