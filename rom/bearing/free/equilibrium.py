@@ -89,7 +89,8 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
                 break
             near, last = instant, min(move, 0.5 * last)
         else:
-            return near
+            if closed(film, near, force) is None:
+                return near
     if start is None:
         start = film.first(film.wall.place)
         constant = unchanging(solved.problem)
