@@ -33,7 +33,7 @@ HOLDING = 1e-6
 """Stiffness that holds a shaft at its place before a step, over the load per clearance."""
 
 ALIGNING = 1e-7
-"""Stiffness that aligns pads with the shaft, over η u B (R/c)² per clearance, or over the load per clearance at rest."""
+"""Stiffness that aligns pads with the shaft, over η u B (R/c)² per clearance; at rest over the load per clearance."""
 
 MAX_MOVE = 0.25
 """Largest move of a shaft or of the edge of a pad in a step, over the clearance and its distance."""

@@ -50,7 +50,7 @@ def with_wedges(film: FreeFilm, instant: Instant, pads: list[int], *, tolerance:
         free=np.zeros(count, dtype=bool),
     )
     ends = {pad: _ends(film, instant.place, pad, sense) for pad in pads}
-    low, high = {pad: 0.0 for pad in pads}, {pad: 1.0 for pad in pads}
+    low, high = dict.fromkeys(pads, 0.0), dict.fromkeys(pads, 1.0)
     found: dict[int, float] = {}
     now = instant
     for number in range(MAX_TILTS):
