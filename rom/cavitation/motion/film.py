@@ -118,7 +118,8 @@ class MovingFilm:
         if self.contact is None:
             return np.ones_like(thickness)
         step = GAP_STEP * (self.contact.touching - self.contact.closest)
-        return np.asarray((self.gap(thickness + step) - self.gap(thickness)) / step)
+        below, above = np.maximum(thickness - step, self.contact.closest), thickness + step
+        return np.asarray((self.gap(above) - self.gap(below)) / (above - below))
 
     def network(
         self,
