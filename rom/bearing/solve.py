@@ -16,6 +16,7 @@ from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
 from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, converted, under_load
 from roughfilm.rom.bearing.film import Searched, smooth_films
+from roughfilm.rom.bearing.free.directions import with_directions
 from roughfilm.rom.bearing.free.evaluated import evaluated
 from roughfilm.rom.bearing.free.solve import solve_free
 from roughfilm.rom.bearing.geometry.journal import Journal
@@ -117,7 +118,11 @@ def solve(
             films = partial(_films, among=among, ruptures=ruptures, tolerance=request.tolerance)
         found = _under_load(scene, cells, among, films, outputs, progress)
     solution, quantities = found.levels[0]
-    uncertainty = uncertainties(found.levels, found.of_factors, found.balance, exact=found.exact)
+    uncertainty = with_directions(
+        scene.geometry,
+        quantities,
+        uncertainties(found.levels, found.of_factors, found.balance, exact=found.exact),
+    )
     warnings = [
         *grid_warnings(solution),
         *pressure_warnings(solution),

@@ -19,14 +19,20 @@ from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
 from roughfilm.rom.cavitation.motion.march import held
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import Level, Solution, coarsening
+from roughfilm.rom.cavitation.solve import FIRST_COARSENING, Level, Solution
 from roughfilm.rom.ladder.model import Progress, silent
 
 GRIDS = 4
 """Largest number of grids, the coarser ones for the uncertainty."""
 
+LEAST_GRIDS = 3
+"""Smallest number of grids: the values on two of them may agree by chance, and do not show an order."""
+
 MIN_CELLS = 24
-"""Smallest number of cells along the film of a coarser grid; one grid is coarser in any case."""
+"""Smallest number of cells along the film of the grids beyond these."""
+
+COARSEST_CELLS = 6
+"""Smallest number of cells along the film of any coarser grid."""
 
 ACROSS = 2
 """Cells along the film over those across it."""
@@ -76,10 +82,14 @@ def placed(film: FreeFilm, instant: Instant) -> Bearing:
 
 
 def sizes(cells: int) -> list[tuple[int, int]]:
-    """Cells along and across the film from the coarsest to the finest grid."""
-    along = [size for size, _ in coarsening((cells, 1), wide=True)][-GRIDS:]
-    kept = [size for size in along if size >= MIN_CELLS]
-    return [(size, max(2, round(size / ACROSS))) for size in (kept if len(kept) > 1 else along[-2:])]
+    """Cells along and across the film from the coarsest to the finest grid, which have few nodes in common."""
+    along = [cells]
+    while len(along) < GRIDS:
+        coarser = 2 * round(FIRST_COARSENING * along[-1] / 2)
+        if coarser < (COARSEST_CELLS if len(along) < LEAST_GRIDS else MIN_CELLS):
+            break
+        along.append(coarser)
+    return [(size, max(2, round(size / ACROSS))) for size in reversed(along)]
 
 
 def solve_free(
