@@ -36,6 +36,7 @@ def uncertainties(
     balance: float | None = None,
     *,
     exact: Collection[str] = EXACT,
+    apart: Mapping[str, float] | None = None,
 ) -> dict[str, float]:
     """The uncertainty of each quantity in its unit, infinite if unknown; empty without a coarser grid.
 
@@ -50,6 +51,7 @@ def uncertainties(
     of_factors : uncertainties that come from flow factors and contact pressures, by quantity.
     balance : relative error of the load for which the film was sought; None for a given film, whose thickness is exact.
     exact : quantities that have no error of the grid.
+    apart : smallest difference of a quantity on the finest two grids, in its unit, and its least uncertainty.
     """
     if len(levels) == 1:
         return {}
@@ -59,7 +61,7 @@ def uncertainties(
     largest_flow = max((abs(one.value) for one in quantities.values() if one.unit == FLOW_UNIT), default=0.0)
     arm = abs(quantities["load"].value) * float(solution.grid.areas.sum()) ** 0.5 if "load" in quantities else 0.0
     least = front_uncertainties(solution, quantities["theta_min"].value) if "theta_min" in quantities else {}
-    result = {}
+    moved, result = apart or {}, {}
     for name, quantity in quantities.items():
         known = {count: level[name].value for count, level in zip(cells, values, strict=True) if name in level}
         size = largest_flow if quantity.unit == FLOW_UNIT else arm if name in MOMENTS else abs(quantity.value)
@@ -68,12 +70,20 @@ def uncertainties(
         elif name in unknown:
             result[name] = math.inf
         elif len(known) > 1:
+            if len(known) == 2:
+                known = _apart(known, moved.get(name, 0.0))
             if name in POSITIONS:
                 known = _positions(known, ring=solution.network.periodic[0])
-            of_grid = max(grid_uncertainty([*known], [*known.values()]), least.get(name, 0.0))
+            of_grid = max(grid_uncertainty([*known], [*known.values()]), least.get(name, 0.0), moved.get(name, 0.0))
             of_balance = size * (IMBALANCE_FACTOR * solution.imbalance + (balance or 0.0))
             result[name] = of_grid + of_balance + of_factors.get(name, 0.0)
     return result
+
+
+def _apart(known: Mapping[float, float], least: float) -> dict[float, float]:
+    """Values on two grids that differ at least by ``least``."""
+    (finest, value), (coarser, other) = known.items()
+    return {finest: value, coarser: other if abs(other - value) >= least else value + least}
 
 
 def _positions(known: Mapping[float, float], *, ring: bool) -> dict[float, float]:

@@ -1,5 +1,6 @@
 """The steady film of a bearing whose wall moves freely, on successively finer grids."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -40,6 +41,9 @@ ACROSS = 2
 RATE_AT_REST = 1e-6
 """Rate of a slow motion, 1/s, in place of a steady film at rest, whose cavities no flow determines."""
 
+ECCENTRICITIES = ("eccentricity", "eccentricity_x", "eccentricity_y")
+"""Quantities of the place of a shaft over the clearance."""
+
 COARSE_CELLS = 48
 """Number of cells along the film on which the expected film is sought."""
 
@@ -73,6 +77,28 @@ class FreeSolution:
     def balance(self) -> float | None:
         """The relative net force on the wall on the finest grid; None where no coordinate is free."""
         return self.instants[0].force_residual if self.films[0].free.any() else None
+
+    @property
+    def apart(self) -> dict[str, float]:
+        """The differences between the finest two grids of quantities of the place, from the motion of the whole wall.
+
+        That of a single one, such as the least film or a coordinate, may be small by chance while the wall moves along
+        the film. The least film is taken to change by the largest relative change of the film anywhere.
+        """
+        if len(self.films) < 2 or not self.films[0].free.any():
+            return {}
+        film, instant = self.films[0], self.instants[0]
+        moved = self.instants[1].place - instant.place
+        change = max(film.solved.closing(instant.place, sign * moved) for sign in (-1.0, 1.0))
+        found = {"film_min": change * float(instant.faces.thickness.min())}
+        if isinstance(film.scene.geometry, Lobes):
+            shift, size = (float(np.hypot(*place[:2])) for place in (moved, instant.place))
+            found |= dict.fromkeys(ECCENTRICITIES, shift / float(film.wall.unit[0]))
+            turned = shift / size if size else math.inf
+            found["attitude_angle"] = math.degrees(turned)
+            if film.scene.geometry.lobes == 1 and not any(film.scene.geometry.misalignment):
+                found |= {"film_min_angle": math.degrees(turned), "film_min_x": film.scene.geometry.radius * turned}
+        return found
 
 
 def placed(film: FreeFilm, instant: Instant) -> Bearing:

@@ -48,7 +48,7 @@ def command(
     first: Annotated[int, typer.Option(min=0, help="First seed.")] = 0,
     kinds: Annotated[str | None, typer.Option(help="Kinds, joined by commas (default: all).")] = None,
     commands: Annotated[str | None, typer.Option(help="solve, march, or both, joined by a comma (default).")] = None,
-    cells: Annotated[int, typer.Option(min=16, help="Cells along the film of an equilibrium.")] = 48,
+    cells: Annotated[int, typer.Option(min=32, help="Cells along the film of an equilibrium.")] = 48,
     march_cells: Annotated[int, typer.Option(min=16, help="Cells along the film of a march.")] = 32,
     as_json: AsJson = False,
 ) -> None:

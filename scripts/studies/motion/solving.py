@@ -8,7 +8,7 @@ import numpy as np
 
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.dynamics.point import GridPoint, finished, grid_point, rotation_of
-from roughfilm.rom.bearing.dynamics.sweep import check_bearing, dynamic_point
+from roughfilm.rom.bearing.dynamics.sweep import dynamics
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.evaluated import evaluated
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
@@ -72,9 +72,8 @@ def solve_answer(scene: Bearing, cells: int) -> Stated:
 
 def dynamics_answer(scene: Bearing, cells: int) -> Stated:
     """Return stiffness, damping and whirl of a bearing on a grid, as ``roughfilm dynamics`` states them."""
-    check_bearing(scene)
     assert scene.load_pressure is not None
-    point = dynamic_point(scene, scene.load_pressure, cells, 1.0, {})
+    point = dynamics(scene, [abs(scene.motion.speed)], [scene.load_pressure], resolution=cells)[0].points[0]
     return Stated(
         values=_finite(point.numbers),
         uncertainty=_finite(point.uncertainty),

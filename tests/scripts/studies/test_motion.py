@@ -67,7 +67,7 @@ def test_unknown_kinds_are_refused():
 
 
 def test_the_page_has_the_counts_of_its_scenes_and_the_next_run_takes_them_from_their_files(tmp_path, monkeypatch):
-    options = {"scenes": 1, "kinds": "pad", "cells": 16, "march_cells": 16}
+    options = {"scenes": 1, "kinds": "pad", "cells": 32, "march_cells": 16}
     study.command(tmp_path, **options)
     stated = json.loads((tmp_path / "motion.json").read_text(encoding="utf-8"))
     tallies = {(one["kind"], one["command"]): one for one in stated["scenes"]}

@@ -6,7 +6,6 @@ from itertools import pairwise
 import pytest
 
 from roughfilm.ladder import find
-from roughfilm.rom.bearing.free.directions import ASIDE, with_directions
 from roughfilm.rom.bearing.free.solve import sizes, solve_free
 from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.evaluation.fronts import fraction_at_fronts, hidden_cavities
@@ -84,12 +83,13 @@ def test_a_grid_may_hide_a_cavity_before_an_outlet_where_the_film_grows_thicker(
     assert result["cavitated_fraction"].uncertainty == 0
 
 
-def test_a_shaft_has_a_direction_no_better_known_than_its_place_allows():
-    result = solved(misaligned(), 24)
-    errors = [result[f"eccentricity_{axis}"].uncertainty for axis in "xy"]
-    least = ASIDE * math.hypot(*errors) / result["eccentricity"].value
-    assert result["attitude_angle"].uncertainty >= math.degrees(least) * (1 - 1e-9)
-    assert with_directions(crowned().geometry, {}, {"load": 1.0}) == {"load": 1.0}
+def test_the_direction_of_a_shaft_is_no_better_known_than_its_place():
+    """The grids may agree in one component of the place by chance."""
+    bearing = misaligned()
+    result, free = solved(bearing, 24), solve_free(bearing, 24, tolerance=1e-10)
+    fine, coarse = (instant.place[:2] for instant in free.instants[:2])
+    least = math.degrees(math.dist(fine, coarse) / math.hypot(*fine))
+    assert result["attitude_angle"].uncertainty >= least * (1 - 1e-6)
 
 
 def test_cells_at_fronts_bound_the_cavitated_fraction():
