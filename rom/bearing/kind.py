@@ -282,6 +282,7 @@ KIND = Kind(
     excluded="inertia, heat and deformation of the bodies as a whole",
     composed=composed,
     steady=steady,
+    without_time=Bearing.without_time,
     in_time=in_time,
     lawless=squeezed,
     omitted=omitted,
