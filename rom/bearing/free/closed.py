@@ -18,6 +18,9 @@ CLOSEST = 1e-4
 CLOSEST_CONTACT = 2e-3
 """Distance from the smallest known separation of walls that touch, over that of first contact from it."""
 
+CLOSEST_ROUGH = 1e-2
+"""Distance from the smallest film of which flow factors are known, over that film, below which none is sought."""
+
 CLOSEST_PAD = 1e-2
 """The same for pads that carry no load, and over the film of a pad about its pivot that narrows to half."""
 
@@ -33,6 +36,12 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
     contact = film.solved.contact
     if contact is not None:
         return _beyond_contact(film, instant, force, contact)
+    known = film.solved.closest
+    if known > 0 and film.solved.room(instant.place) < CLOSEST_ROUGH * known:
+        return InputError(
+            f"load: got {np.hypot(*force[:2]):.6g} N; no film above {known:.4g} m, the thinnest of which flow factors "
+            "are known, carries it; lower the load, raise the speed or the viscosity, or add [asperities]"
+        )
     thickness, geometry, x = instant.faces.thickness, film.scene.geometry, film.solved.grid.x
     least = float(thickness.min())
     pads = isinstance(geometry, Lobes) and geometry.pivot is not None

@@ -270,8 +270,8 @@ class Observer:
         """The flows that enter through each place, m³/s, the volume at cavitation density, its rate and the imbalance.
 
         The flow through the sides counts outwards, as that through the outlet. The imbalance is that of all flows with
-        the storage, over the largest of them and of those along the film; below the round-off of the stored volume over
-        a step it is 0, because nothing else flows at rest.
+        the storage, over the largest of them and of those along the film. It is 0 below the round-off of the stored
+        volume over a step, and where no flow exceeds the round-off of those that the pressures drive, as at rest.
         """
         film, net = self.film.solved, instant.network
         areas, excess = film.grid.areas, film.problem.compression(instant.state.pressure)[0]
@@ -296,4 +296,5 @@ class Observer:
         passing = film.sides * float(np.abs(net.couette * filled).sum(axis=1).max())
         largest, missing = max([passing, abs(rate), *map(abs, flows)]), entering - rate
         small = BALANCE_ROUNDOFF * film.sides * float(net.storage.sum())
-        return flows, stored, rate, missing / largest if abs(missing) > small else 0.0
+        driven = BALANCE_ROUNDOFF * film.sides * float(((net.east + net.north) * np.abs(instant.state.pressure)).sum())
+        return flows, stored, rate, missing / largest if abs(missing) > small and largest > driven else 0.0
