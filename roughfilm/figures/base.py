@@ -5,7 +5,7 @@ import html
 import io
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -194,7 +194,8 @@ def svg(figure: Figure) -> str:
     and drawn once; ``Figure.savefig`` draws it one more time, without output, to lay it out.
     """
     buffer = io.StringIO()
-    FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})
+    write: Callable[..., None] = FigureCanvasSVG(figure).print_svg
+    write(buffer, metadata={"Date": None})
     text = buffer.getvalue()
     text = text[text.index("<svg") :]
     own = "f" + hashlib.sha256(text.encode()).hexdigest()[:8] + "-"
