@@ -9,9 +9,9 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.bearing.free.closed import closed, starved
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.free.idle import idle_pads, with_wedges
+from roughfilm.rom.bearing.free.unbalanced import remedy, unbalanced
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
-from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
 from roughfilm.rom.cavitation.motion.march import held
@@ -81,6 +81,8 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
             "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
         )
     force = film.load if load is None else load
+    if (reason := unbalanced(film, force)) is not None:
+        raise reason
     if start is not None:
         near, last = start, MAX_MOVE
         while last > SETTLED:
@@ -173,9 +175,8 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
     unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
     if shaft and unresisted:
         raise _leaves(force)
-    other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
     raise ConvergenceError(
-        f"load: the motion towards the equilibrium does not settle; take more cells, or {other}",
+        f"load: the motion towards the equilibrium does not settle; {remedy(film.scene)}",
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
     )
