@@ -29,6 +29,9 @@ LAST_STEP = 1e6
 MAX_STEPS = 200
 """Largest number of time steps."""
 
+MAX_RESTARTS = 8
+"""Largest number of times that pads which carry no load are tilted anew on the way to an equilibrium."""
+
 HOLDING = 1e-6
 """Stiffness that holds a shaft at its place before a step, over the load per clearance."""
 
@@ -117,10 +120,11 @@ def _with_loaded_pads(film: FreeFilm, instant: Instant, force: Array, tolerance:
     return instant
 
 
-def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) -> Instant:
+def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, restarts: int = MAX_RESTARTS) -> Instant:
     """The end of the motion without mass from a film.
 
     At rest the last step may be a long one: nothing determines how far the cavities of a steady film would be filled.
+    Where a pad that carries no load closes on the way, the motion goes on from a tilt at which it carries one.
     """
     solved, count, speed = film.solved, force.size, film.solved.problem.speed
     time, shaft = 1 / _rate(film), isinstance(film.scene.geometry, Shaft)
@@ -152,7 +156,11 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) ->
             continue
         instant = following
         if (reason := closed(film, instant, force)) is not None:
-            raise reason
+            idle = idle_pads(film, instant) if restarts else []
+            wedges = with_wedges(film, instant, idle, tolerance=tolerance) if idle else None
+            if wedges is None:
+                raise reason
+            return _settling(film, wedges, force, tolerance, restarts - 1)
         if last and move <= SETTLED:
             return instant
         if shaft and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]:
