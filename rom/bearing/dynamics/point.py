@@ -146,7 +146,9 @@ def rotation_of(scene: Bearing, speed: float) -> float:
     return 0.0 if radius is None else abs(speed) / radius
 
 
-def finished(points: Sequence[GridPoint], rotation: float) -> tuple[dict[str, float], dict[str, float]]:
+def finished(
+    points: Sequence[GridPoint], rotation: float, balance: float = 0.0
+) -> tuple[dict[str, float], dict[str, float]]:
     """The numbers on the finest grid and their uncertainties.
 
     Those of mass and frequency of a whirl are had from 1/M and ν², which are finite where there is no whirl.
@@ -155,12 +157,15 @@ def finished(points: Sequence[GridPoint], rotation: float) -> tuple[dict[str, fl
     ----------
     points : the point on each grid, from fine to coarse; a single one has no uncertainty.
     rotation : rotational speed ω, rad/s.
+    balance : relative error of the load.
     """
     cells, finest = [point.cells for point in points], points[0]
     numbers = dict(finest.numbers)
     uncertainty = {
-        name: grid_uncertainty(cells, [point.numbers[name] for point in points]) if len(points) > 1 else math.inf
-        for name in numbers
+        name: grid_uncertainty(cells, [point.numbers[name] for point in points]) + balance * abs(value)
+        if len(points) > 1
+        else math.inf
+        for name, value in numbers.items()
     }
     whirls = [point.whirl for point in points if point.whirl is not None]
     if not whirls:

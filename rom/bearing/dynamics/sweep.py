@@ -13,6 +13,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, grid_point, rotation_of
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
 from roughfilm.rom.cavitation.motion.coupled import Instant
@@ -23,6 +24,9 @@ RESOLUTION, MIN_CELLS, MAX_CELLS = 128, 32, 512
 
 COARSENING = (4, 2, 1)
 """Cells along the finest grid over those of each grid, in the order in which they are solved."""
+
+CELLS_PER_LOBE = 4
+"""Smallest number of cells along a lobe of a coarser grid: with fewer its film is not resolved at all."""
 
 TOLERANCE = 1e-9
 """Residual at which a film is solved."""
@@ -178,10 +182,13 @@ def dynamic_point(
     points = [point for point in points if point.numbers["film_min"] > 0]
     speed, (film, instant) = abs(scene.motion.speed), solved[-1]
     rotation = rotation_of(scene, speed)
-    numbers, uncertainty = finished(points, rotation)
+    shaft = ~film.wall.turns
+    net_force = film.solved.force(instant.state.pressure)[shaft] + film.load[shaft]
+    load = math.hypot(*film.load[shaft])
+    numbers, uncertainty = finished(points, rotation, math.hypot(*net_force) / load)
     return DynamicPoint(
         pressure=pressure,
-        load=math.hypot(*film.load[~film.wall.turns]),
+        load=load,
         speed=speed,
         rotation=rotation,
         numbers=numbers,
@@ -198,7 +205,10 @@ def _equilibria(scene: Bearing, resolution: int, started: dict[int, Instant]) ->
     """
     coarse: tuple[FreeFilm, Instant] | None = None
     refused = 0
+    least = CELLS_PER_LOBE * scene.geometry.lobes if isinstance(scene.geometry, Lobes) else 0
     for coarsening in COARSENING:
+        if coarsening != COARSENING[-1] and resolution // coarsening < least:
+            continue
         film = free_film(scene, (resolution // coarsening, resolution // coarsening // 2))
         start = started.pop(coarsening, None)
         if start is None and coarse is not None:
