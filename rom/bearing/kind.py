@@ -312,6 +312,7 @@ KIND = Kind(
     composed=composed,
     variants={"free_bearing": free, "placed_bearing": placed},
     steady=steady,
+    without_time=Bearing.without_time,
     in_time=in_time,
     lawless=squeezed,
     omitted=omitted,
