@@ -37,5 +37,4 @@ top.set(ylabel="friction coefficient (1)", title="Start of a journal bearing")
 top.legend()
 bottom.set(xlabel="speed of the surface of the shaft (m/s)", ylabel="load on asperities (%)")
 plt.show()
-lift_off = {name: curve.lift_off.speed for name, curve in curves.items()}
-print("lift-off speeds (m/s):", {name: round(speed, 3) for name, speed in lift_off.items()})
+print("lift-off speeds (m/s):", {name: round(curve.lift_off.speed, 3) for name, curve in curves.items()})
