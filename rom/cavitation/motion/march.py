@@ -210,8 +210,8 @@ def _stopped(moving: Moving, closest: float) -> ConvergenceError:
     reason = (
         f"the film is {least:.3g} m thick, and the walls touch; lower the load, or raise the viscosity or the speed"
         if touches
-        else "no time step converges; take more cells, or give a mass or inertia to coordinates without one, whose "
-        "motion a film without pressure does not resist"
+        else "no time step converges; take more cells, begin in equilibrium with the load, or give a mass or inertia "
+        "to coordinates without one, whose motion a film without pressure does not resist"
     )
     return ConvergenceError(
         f"motion: at the time {moving.now.time:.6g} s {reason}",
