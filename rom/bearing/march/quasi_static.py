@@ -6,10 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import FreeFilm
-from roughfilm.rom.bearing.march.course import Duty, course_of, film_at
+from roughfilm.rom.bearing.march.course import STEPS_PER_TABLE, Duty, course_of, film_at
+from roughfilm.rom.bearing.march.numbers import Observer
+from roughfilm.rom.bearing.march.series import Numerics, run
 from roughfilm.rom.bearing.moving.checks import MOMENTS
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
@@ -28,7 +30,15 @@ RESIDUAL = 1e-9
 JUDGED = "load over time: models are judged at the largest load"
 
 MAX_CHANGE = 0.3
-"""Relative change of the least film up to which the linear estimate is stated as a number."""
+"""Relative change of the least film up to which the linear estimate is stated as a number where a march stops."""
+
+MARCH_CELLS, MARCH_ERROR, MARCH_PERIODS = (32, 16), 4e-3, 2
+"""Cells, error of a step, and periods of the march that finds the change, of which the last period counts."""
+
+SHORTEST_STEP, MARCH_STEPS = 1 / 400, 4000
+"""Least of the largest step of that march over the length of the table, and the number of its steps that are too many.
+
+A rotor that whirls takes many steps in a turn."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,12 +60,18 @@ class QuasiStatic:
 
     @property
     def change(self) -> float:
-        """The relative change of the least film over time by squeeze."""
+        """The relative change of the least film over time by squeeze, to first order in the rate of change."""
         return float(self.moved.min() / self.film_min.min() - 1)
 
-    def faster(self, within: float) -> float:
-        """The factor of all rates at which the change by squeeze reaches a tolerance; infinite without a change."""
-        return within / abs(self.change) if self.change else math.inf
+    def faster(self, within: float, change: float = 0.0) -> float:
+        """The factor of all rates at which the change by squeeze reaches a tolerance; infinite without a change.
+
+        Parameters
+        ----------
+        change : the change by a march, if that is known; the larger of both counts, in proportion to the rates.
+        """
+        larger = max(abs(self.change), abs(change))
+        return within / larger if larger else math.inf
 
 
 def quasi_static(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIMES) -> QuasiStatic:
@@ -99,6 +115,43 @@ def quasi_static(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIM
     )
 
 
+def marched_change(
+    duty: Duty, *, cells: tuple[int, int] = MARCH_CELLS, error: float = MARCH_ERROR, times: int = TIMES
+) -> float:
+    """The relative change of the least film over time from the equilibria to a march of smooth walls on a coarse grid.
+
+    The march begins in equilibrium with the first load. Of a table that repeats the second period counts.
+
+    Raises
+    ------
+    InputError
+        If no film carries the load at one of the times.
+    ConvergenceError
+        If a film does not converge, the walls touch, or the march takes too many steps.
+    """
+    scene = duty.scene.model_copy(update={"roughness": None, "asperities": None})
+    smooth, table = Duty(scene=scene), scene.motion.over_time
+    assert table is not None
+    rows = table.table.time
+    length = table.period or float(np.ptp(rows))
+    step = max(min(length / STEPS_PER_TABLE, 2 * float(np.median(np.diff(rows)))), SHORTEST_STEP * length)
+    last, count = smooth.begin + (MARCH_PERIODS if table.period else 1) * length, 0
+
+    def limited(_fraction: float, _words: str) -> None:
+        nonlocal count
+        count += 1
+        if count > MARCH_STEPS:
+            raise ConvergenceError(
+                f"a march to {last:.4g} s takes more than {MARCH_STEPS} steps", outcome=Outcome.UNFINISHED
+            )
+
+    series = run(smooth, Numerics(cells=cells, end=last, error=error, step=step), progress=limited)
+    film, time = film_at(smooth, cells), np.linspace(smooth.begin, smooth.begin + length, times + 1)
+    observer = Observer(duty=smooth, film=film)
+    least = min(observer.least(one.faces.thickness)[0] for one in _equilibria(smooth, film, time))
+    return float(series["film_min"][series.time >= last - length * (1 + 1e-9)].min() / least - 1)
+
+
 def _equilibria(duty: Duty, film: FreeFilm, time: Array) -> list[Instant]:
     """The film in equilibrium with the load at each time, each from the one before."""
     instants: list[Instant] = []
@@ -135,11 +188,24 @@ def in_time(scene: Bearing, within: float) -> InTime | None:
     except (InputError, ConvergenceError) as error:
         line = f"load over time: not every load has a film in equilibrium ({error}); take roughfilm march"
         return InTime(lines=(line, JUDGED), entries={"quasi_static": None})
-    change, rate = found.change, found.faster(within)
-    small = abs(change) <= MAX_CHANGE
-    size = f"by up to about {100 * abs(change):.2g} %" if small else f"possibly by more than {100 * MAX_CHANGE:g} %"
+    try:
+        change, stop = marched_change(duty), None
+    except ConvergenceError as error:
+        change, stop = None, error
+    return _stated(found, change, within, stop)
+
+
+def _stated(found: QuasiStatic, change: float | None, within: float, stop: ConvergenceError | None) -> InTime:
+    """The lines and entries of films in equilibrium and the change by a march; None where it stopped, with why.
+
+    Of a march with too many steps the estimate to first order says whether equilibria are enough.
+    """
+    rate, known = found.faster(within, change or 0.0), change is not None or abs(found.change) <= MAX_CHANGE
+    stated = found.change if change is None else change
+    size = f"by {100 * stated:+.2g} %" if known else f"possibly by more than {100 * MAX_CHANGE:g} %"
+    by = "" if change is not None else f", to first order, as a march on a coarse grid stops ({stop})"
     number = "" if math.isinf(found.squeeze_number) else f" (squeeze number {found.squeeze_number:.2g})"
-    enough = abs(change) <= within
+    enough = abs(stated) <= within and (stop is None or stop.outcome is Outcome.UNFINISHED)
     verdict = (
         f"films in equilibrium with each load are enough for {100 * within:g} %"
         if enough
@@ -148,20 +214,21 @@ def in_time(scene: Bearing, within: float) -> InTime | None:
     limit = (
         "at any rate of change"
         if math.isinf(rate)
-        else f"up to {rate:.2g} times the rates of this table"
+        else f"up to about {max(rate, 1.0):.2g} times the rates of this table"
         if enough
-        else f"below {rate:.2g} times the rates of this table they would be"
+        else f"below about {min(rate, 1.0):.2g} times the rates of this table they would be"
     )
     return InTime(
         lines=(
-            f"load over time: squeeze changes the least film {size}{number}",
+            f"load over time: squeeze changes the least film {size}{by}{number}",
             f"load over time: {verdict}; {limit}",
             JUDGED,
         ),
         entries={
             "quasi_static": {
                 "enough": enough,
-                "change_of_least_film": change if abs(change) <= MAX_CHANGE else None,
+                "change_of_least_film": stated if known else None,
+                "marched": change is not None,
                 "squeeze_number": None if math.isinf(found.squeeze_number) else found.squeeze_number,
                 "largest_rate_factor": None if math.isinf(rate) else rate,
             }
