@@ -10,10 +10,11 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.course import Duty, course_of, film_at
+from roughfilm.rom.bearing.march.journals import opened, with_coordinates
 from roughfilm.rom.bearing.moving.checks import MOMENTS
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
-from roughfilm.rom.cavitation.motion.coupled import Instant
+from roughfilm.rom.cavitation.motion.coupled import Instant, turned_round
 from roughfilm.rom.ladder.kind import InTime
 
 CELLS = (48, 24)
@@ -24,6 +25,9 @@ TIMES = 64
 
 RESIDUAL = 1e-9
 """Residual at which a film is solved."""
+
+AT_REST = 1e-6
+"""Speed over the largest one below which a wall that slides back and forth is at rest."""
 
 JUDGED = "load over time: models are judged at the largest load"
 
@@ -74,20 +78,20 @@ def quasi_static(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIM
     film, table = film_at(duty, cells), duty.scene.motion.over_time
     assert table is not None
     time = np.linspace(duty.begin, duty.begin + (table.period or float(np.ptp(table.table.time))), times + 1)
-    instants = _equilibria(duty, film, time)
-    place = np.array([instant.place for instant in instants])
+    found = _equilibria(duty, film, time)
+    place = np.array([instant.place for _, instant in found])
     velocity = np.gradient(place, time, axis=0)
     mass = course_of(duty, film).mass
     motion = []
-    for number, (at, instant) in enumerate(zip(time, instants, strict=True)):
-        found = coefficients(film.solved, instant, speed=abs(duty.speed(at)))
-        forces = found.damping @ velocity[number] + mass @ np.gradient(velocity, time, axis=0)[number]
-        motion.append((forces, np.linalg.lstsq(found.stiffness, -forces, rcond=None)[0]))
+    for number, (placed, instant) in enumerate(found):
+        linear = coefficients(placed.solved, instant, speed=placed.solved.problem.speed)
+        forces = linear.damping @ velocity[number] + mass @ np.gradient(velocity, time, axis=0)[number]
+        motion.append((forces, np.linalg.lstsq(linear.stiffness, -forces, rcond=None)[0]))
     least, moved = [], []
-    for instant, (_, change) in zip(instants, motion, strict=True):
+    for (placed, instant), (_, change) in zip(found, motion, strict=True):
         thickness = instant.faces.thickness
         least.append(float(thickness.min()))
-        moved.append(max(float((thickness + film.solved.at_nodes @ change).min()), 0.0))
+        moved.append(max(float((thickness + placed.solved.at_nodes @ change).min()), 0.0))
     moving = ~film.wall.turns
     loads = np.array([np.linalg.norm(duty.load(at)[: moving.size][moving]) for at in time])
     pulls = np.array([np.linalg.norm(forces[moving]) for forces, _ in motion])
@@ -99,15 +103,19 @@ def quasi_static(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIM
     )
 
 
-def _equilibria(duty: Duty, film: FreeFilm, time: Array) -> list[Instant]:
-    """The film in equilibrium with the load at each time, each from the one before."""
-    instants: list[Instant] = []
+def _equilibria(duty: Duty, film: FreeFilm, time: Array) -> list[tuple[FreeFilm, Instant]]:
+    """The film in equilibrium with the load at each time, each from the one before, and mirrored if it slides back."""
+    found: list[tuple[FreeFilm, Instant]] = []
     for at in time:
-        placed = _at_speed(film, abs(duty.speed(float(at))))
-        start = instants[-1] if instants else None
+        speed = duty.speed(float(at))
+        placed = _at_speed(film.reversed if speed and (speed < 0) != film.turned else film, abs(speed))
+        start = None
+        if found:
+            before, start = found[-1]
+            start = start if before.turned == placed.turned else turned_round(before.solved, start)
         load = duty.load(float(at))[: film.wall.place.size]
-        instants.append(equilibrium(placed, start, tolerance=RESIDUAL, load=load))
-    return instants
+        found.append((placed, equilibrium(placed, start, tolerance=RESIDUAL, load=load)))
+    return found
 
 
 def _at_speed(film: FreeFilm, speed: float) -> FreeFilm:
@@ -129,9 +137,8 @@ def in_time(scene: Bearing, within: float) -> InTime | None:
     """
     if not _loaded_over_time(scene):
         return None
-    duty = Duty(scene=scene)
     try:
-        found = quasi_static(duty)
+        found = quasi_static(Duty(scene=with_coordinates(scene, CELLS)))
     except (InputError, ConvergenceError) as error:
         line = f"load over time: not every load has a film in equilibrium ({error}); take roughfilm march"
         return InTime(lines=(line, JUDGED), entries={"quasi_static": None})
@@ -179,10 +186,15 @@ def steady(scene: Bearing) -> Bearing:
     """The scene at the time of the largest load of its table, with that load, its direction and the speed then."""
     if not _loaded_over_time(scene):
         return scene
-    duty, table = Duty(scene=scene), scene.motion.over_time
+    duty, table = Duty(scene=opened(scene)), scene.motion.over_time
     assert table is not None
     times = np.linspace(table.table.time[0], table.table.time[-1], 20 * TIMES + 1)
     at = float(max(times, key=lambda time: float(np.linalg.norm(duty.load(time)[: 2 if duty.lobes else 1]))))
+    if duty.reverses and abs(duty.speed(at)) <= AT_REST * max(abs(duty.speed(float(time))) for time in times):
+        raise InputError(
+            f"motion.over_time.speed: got {duty.speed(at):.4g} m/s at {at:.4g} s with the largest load, which no "
+            "steady film carries then; take roughfilm march, or another speed then"
+        )
     radius = scene.turning_radius if not duty.lobes and scene.turning_radius is not None else 1.0
     motion = scene.motion.model_copy(update={"speed": duty.speed(at) * radius, "over_time": None})
     return scene.model_copy(update={"load": duty.steady_load(at), "motion": motion, "body": None})

@@ -12,7 +12,9 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.ranges import in_range, whole_in_range
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.geometry.open_bore import OpenBore
 from roughfilm.rom.bearing.march.course import Duty, film_at, refuse_unsupported
+from roughfilm.rom.bearing.march.journals import with_coordinates
 from roughfilm.rom.bearing.march.rough_walls import walls_of
 from roughfilm.rom.bearing.march.series import Numerics, Series, run
 from roughfilm.rom.bearing.march.store import finish, keeper, kept
@@ -166,7 +168,7 @@ def march_bearing(
     ConvergenceError
         If a film becomes too thin, or a step does not converge.
     """
-    duty = Duty(scene=scene)
+    duty = Duty(scene=with_coordinates(scene, cells))
     refuse_unsupported(duty)
     numerics = numerics_of(duty, end=end, error=error, steps=steps, cells=cells, fields=fields)
     entries = scene_entries(scene)
@@ -217,6 +219,11 @@ def march_bearing(
                 warnings.append(
                     f"{', '.join(sorted(unknown))}: unknown uncertainty, as the roughness has too few points"
                 )
+    bore, titles = duty.scene.geometry, dict(summary.titles)
+    if isinstance(bore, OpenBore):
+        angle = math.remainder(bore.first + math.pi, 2 * math.pi)
+        quantities["inlet_angle"] = Quantity(value=math.degrees(angle), unit="deg")
+        titles["inlet_angle"] = "angle of the inlet from the x axis"
     march = March(
         scene=scene,
         numerics=numerics,
@@ -226,7 +233,7 @@ def march_bearing(
         state=summary.state,
         settled=summary.settled,
         quantities=quantities,
-        titles=summary.titles,
+        titles=titles,
         warnings=tuple(warnings),
     )
     if path is not None:

@@ -6,7 +6,9 @@ from matplotlib.figure import Figure
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure
+from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.open_bore import OpenBore
 from roughfilm.rom.bearing.march.series import Snapshot
 from roughfilm.rom.bearing.march.solve import March
 from roughfilm.rom.bearing.scene import Bearing
@@ -32,6 +34,9 @@ def orbit(march: March) -> Figure:
     least = int(np.argmin(np.where(late, march["film_min"], np.inf)))
     axes.plot(x[0], y[0], "o", color="#444444", markersize=4, label="start")
     axes.plot(x[least], y[least], "o", color=COLOURS[1], markersize=5, label="least film")
+    if "inlet_angle" in march.quantities:
+        inlet = np.radians(march.quantities["inlet_angle"].value)
+        axes.plot(np.cos(inlet), np.sin(inlet), "s", color=COLOURS[2], markersize=6, label="inlet")
     axes.set(xlabel="x over the clearance", ylabel="y over the clearance", aspect="equal")
     axes.legend(fontsize=9, loc="center left", bbox_to_anchor=(1.02, 0.5))
     return figure
@@ -40,6 +45,8 @@ def orbit(march: March) -> Figure:
 def room(scene: Bearing) -> tuple[Array, Array]:
     """The eccentricities at which the shaft touches the bore, in all directions."""
     geometry = scene.geometry
+    if isinstance(geometry, Journal):
+        geometry = OpenBore.of(geometry)
     assert isinstance(geometry, Lobes)
     low, high = np.zeros(BORE_SAMPLES), np.full(BORE_SAMPLES, 3.0)
     angles = np.linspace(0, 2 * np.pi, BORE_SAMPLES)
