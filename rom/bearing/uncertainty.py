@@ -32,6 +32,7 @@ def uncertainties(
     balance: float | None = None,
     *,
     exact: Collection[str] = EXACT,
+    apart: Mapping[str, float] | None = None,
 ) -> dict[str, float]:
     """The uncertainty of each quantity in its unit, infinite if unknown; empty without a coarser grid.
 
@@ -45,6 +46,7 @@ def uncertainties(
     of_factors : uncertainties that come from flow factors and contact pressures, by quantity.
     balance : relative error of the load for which the film was sought; None for a given film, whose thickness is exact.
     exact : quantities that have no error of the grid.
+    apart : smallest difference of a quantity on two grids, in its unit, where no third one shows how it decreases.
     """
     if len(levels) == 1:
         return {}
@@ -61,12 +63,20 @@ def uncertainties(
         elif name in unknown:
             result[name] = math.inf
         elif len(known) > 1:
+            if len(known) == 2:
+                known = _apart(known, (apart or {}).get(name, 0.0))
             if name in POSITIONS:
                 known = _positions(known, ring=solution.network.periodic[0])
             of_grid = grid_uncertainty([*known], [*known.values()])
             of_balance = size * (IMBALANCE_FACTOR * solution.imbalance + (balance or 0.0))
             result[name] = of_grid + of_balance + of_factors.get(name, 0.0)
     return result
+
+
+def _apart(known: Mapping[float, float], least: float) -> dict[float, float]:
+    """Values on two grids that differ at least by ``least``."""
+    (finest, value), (coarser, other) = known.items()
+    return {finest: value, coarser: other if abs(other - value) >= least else value + least}
 
 
 def _positions(known: Mapping[float, float], *, ring: bool) -> dict[float, float]:

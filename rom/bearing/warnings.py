@@ -4,7 +4,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.rounding import share
-from roughfilm.rom.bearing.corners import jumps
+from roughfilm.rom.bearing.corners import infinite_flows, jumps
 from roughfilm.rom.bearing.free.lay import StraightFactors
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.quantities import scene_positions
@@ -94,11 +94,20 @@ def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:
             f"boundary.sides: one line leaves out the pressure of {fed:.3g} Pa at a side, while the largest one in the "
             f"film is {highest:.3g} Pa; take reynolds_cavitating"
         )
-    remedy = ", or [[supply]] with grooves that end before the sides" if isinstance(scene.geometry, Lobes) else ""
-    warnings += [
-        f"the pressure at the {jump.end} is {jump.difference:.3g} Pa above that at the {jump.side} side: the flows "
-        f"through both edges are infinite; {jump.end}_flow, side_leakage_{jump.side} and side_leakage grow with the "
-        f"logarithm of the cells; give both edges the same pressure{remedy}"
-        for jump in jumps(solution)
+    return warnings + _infinite_flows(scene, solution)
+
+
+def _infinite_flows(scene: Bearing, solution: Solution) -> list[str]:
+    """One warning for all jumps of the pressure at corners of the film, with the flows that they make infinite."""
+    found = jumps(solution)
+    if not found:
+        return []
+    lobes = isinstance(scene.geometry, Lobes) and not scene.geometry.single
+    corners = {(("gaps" if lobes else jump.end), jump.side): jump.difference for jump in found}
+    named = ", ".join(f"{end} and {side} side ({by:+.3g} Pa)" for (end, side), by in corners.items())
+    remedy = ", or [[supply]] with grooves that end before the sides" if lobes else ""
+    return [
+        f"the pressure jumps between {named}: the flows through these edges are infinite, and "
+        f"{', '.join(sorted(infinite_flows(solution)))} grow with the logarithm of the cells; give both edges the same "
+        f"pressure{remedy}"
     ]
-    return warnings

@@ -12,6 +12,7 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -187,10 +188,11 @@ def map_figure(size: tuple[float, float], models: int, height: float) -> tuple[F
 def svg(figure: Figure) -> str:
     """The figure as SVG text, which holds the values that a page shows under the pointer.
 
-    The text can stand beside others on one page: its identifiers begin with a digest of itself.
+    The text can stand beside others on one page: its identifiers begin with a digest of itself. The figure is laid out
+    and drawn once; ``Figure.savefig`` draws it one more time, without output, to lay it out.
     """
     buffer = io.StringIO()
-    figure.savefig(buffer, format="svg", metadata={"Date": None})
+    FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})
     text = buffer.getvalue()
     text = text[text.index("<svg") :]
     own = "f" + hashlib.sha256(text.encode()).hexdigest()[:8] + "-"

@@ -8,6 +8,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.bearing.free.closed import closed
 from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.free.idle import idle_pads, with_wedges
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Tilting
@@ -28,11 +29,14 @@ LAST_STEP = 1e6
 MAX_STEPS = 200
 """Largest number of time steps."""
 
+MAX_RESTARTS = 8
+"""Largest number of times that pads which carry no load are tilted anew on the way to an equilibrium."""
+
 HOLDING = 1e-6
 """Stiffness that holds a shaft at its place before a step, over the load per clearance."""
 
 ALIGNING = 1e-7
-"""Stiffness that aligns pads with the shaft, over the load per clearance."""
+"""Stiffness that aligns pads with the shaft, over η u B (R/c)² per clearance; at rest over the load per clearance."""
 
 MAX_MOVE = 0.25
 """Largest move of a shaft or of the edge of a pad in a step, over the clearance and its distance."""
@@ -89,20 +93,38 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
                 break
             near, last = instant, min(move, 0.5 * last)
         else:
-            return near
+            if closed(film, near, force) is None:
+                return _with_loaded_pads(film, near, force, tolerance)
     if start is None:
         start = film.first(film.wall.place)
         constant = unchanging(solved.problem)
         if constant != solved.problem and film.free.any():
             simple = replace(film, solved=replace(solved, problem=constant))
             start = _settling(simple, start, force, tolerance)
-    return _settling(film, start, force, tolerance)
+    return _with_loaded_pads(film, _settling(film, start, force, tolerance), force, tolerance)
 
 
-def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) -> Instant:
+def _with_loaded_pads(film: FreeFilm, instant: Instant, force: Array, tolerance: float) -> Instant:
+    """The equilibrium in which fewer pads are idle than at another one, if there is one; else that one."""
+    while idle := idle_pads(film, instant):
+        start = with_wedges(film, instant, idle, tolerance=tolerance)
+        if start is None:
+            break
+        try:
+            other = _settling(film, start, force, tolerance)
+        except (InputError, ConvergenceError):
+            break
+        if len(idle_pads(film, other)) >= len(idle):
+            break
+        instant = other
+    return instant
+
+
+def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, restarts: int = MAX_RESTARTS) -> Instant:
     """The end of the motion without mass from a film.
 
     At rest the last step may be a long one: nothing determines how far the cavities of a steady film would be filled.
+    Where a pad that carries no load closes on the way, the motion goes on from a tilt at which it carries one.
     """
     solved, count, speed = film.solved, force.size, film.solved.problem.speed
     time, shaft = 1 / _rate(film), isinstance(film.scene.geometry, Shaft)
@@ -134,7 +156,11 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) ->
             continue
         instant = following
         if (reason := closed(film, instant, force)) is not None:
-            raise reason
+            idle = idle_pads(film, instant) if restarts else []
+            wedges = with_wedges(film, instant, idle, tolerance=tolerance) if idle else None
+            if wedges is None:
+                raise reason
+            return _settling(film, wedges, force, tolerance, restarts - 1)
         if last and move <= SETTLED:
             return instant
         if shaft and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]:
@@ -197,7 +223,7 @@ def holding(film: FreeFilm, force: Array) -> Array:
     film is symmetric about the pivot but for the term -(e_t + R δ) sin(θ - θ_p) with e_t = e_y cos θ_p - e_x sin θ_p.
     The stiffness opposes e_t + R δ by a moment on the pad, and by no force on the shaft, so that a pad that carries no
     load rests at the tilt nearest to alignment at which its film carries nothing. It changes moments of pads that carry
-    load by about ``ALIGNING``.
+    load by about ``ALIGNING``, of pads far from a heavily loaded shaft too.
     """
     geometry, unit = film.scene.geometry, film.wall.unit
     stiffness = np.zeros((unit.size, unit.size))
@@ -206,7 +232,7 @@ def holding(film: FreeFilm, force: Array) -> Array:
             tangent = np.zeros(unit.size)
             tangent[:2], tangent[2 + pad] = (-np.sin(angle), np.cos(angle)), geometry.radius
             stiffness[2 + pad] = geometry.radius * tangent
-    return np.asarray(ALIGNING * _load_scale(film, force) / unit[0] * stiffness)
+    return np.asarray(ALIGNING * (_sliding_scale(film) or _load_scale(film, force)) / unit[0] * stiffness)
 
 
 def _held(film: FreeFilm, force: Array) -> Array:
@@ -222,12 +248,17 @@ def _held(film: FreeFilm, force: Array) -> Array:
 
 def _load_scale(film: FreeFilm, force: Array) -> float:
     """The load of a shaft, or η u B (R/c)² if that is larger, N."""
-    scene, unit = film.scene, film.wall.unit
-    if not isinstance(scene.geometry, Shaft):
+    return max(float(np.abs(force).max()), _sliding_scale(film)) if isinstance(film.scene.geometry, Shaft) else 0.0
+
+
+def _sliding_scale(film: FreeFilm) -> float:
+    """η u B (R/c)² of a shaft, N; 0 of other bearings."""
+    scene, geometry = film.scene, film.scene.geometry
+    if not isinstance(geometry, Shaft):
         return 0.0
-    width = 1.0 if film.whole.problem.shape.wide else scene.geometry.width or 1.0
-    sliding = scene.lubricant.viscosity * abs(scene.motion.speed) * width * (scene.geometry.radius / unit[0]) ** 2
-    return float(max(np.abs(force).max(), sliding))
+    width = 1.0 if film.whole.problem.shape.wide else geometry.width or 1.0
+    across = float(geometry.radius / film.wall.unit[0])
+    return scene.lubricant.viscosity * abs(scene.motion.speed) * width * across**2
 
 
 def refined(coarse: FreeFilm, instant: Instant, fine: FreeFilm) -> Instant:

@@ -1,5 +1,6 @@
 """The steady film of a bearing whose wall moves freely, on successively finer grids."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -10,6 +11,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.equilibrium.estimate import CONTACT_FILM
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
+from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
@@ -33,6 +35,9 @@ ACROSS = 2
 
 RATE_AT_REST = 1e-6
 """Rate of a slow motion, 1/s, in place of a steady film at rest, whose cavities no flow determines."""
+
+ECCENTRICITIES = ("eccentricity", "eccentricity_x", "eccentricity_y")
+"""Quantities of the place of a shaft over the clearance."""
 
 COARSE_CELLS = 48
 """Number of cells along the film on which the expected film is sought."""
@@ -67,6 +72,25 @@ class FreeSolution:
     def balance(self) -> float | None:
         """The relative net force on the wall on the finest grid; None where no coordinate is free."""
         return self.instants[0].force_residual if self.films[0].free.any() else None
+
+    @property
+    def apart(self) -> dict[str, float]:
+        """The differences between the finest two grids of quantities of the place, from the motion of the whole wall.
+
+        That of a single one, such as the least film or a coordinate, may be small by chance while the wall moves along
+        the film. The least film is taken to change by the largest relative change of the film anywhere.
+        """
+        if len(self.films) < 2 or not self.films[0].free.any():
+            return {}
+        film, instant = self.films[0], self.instants[0]
+        moved = self.instants[1].place - instant.place
+        change = max(film.solved.closing(instant.place, sign * moved) for sign in (-1.0, 1.0))
+        found = {"film_min": change * float(instant.faces.thickness.min())}
+        if isinstance(film.scene.geometry, Shaft):
+            shift, size = (float(np.hypot(*place[:2])) for place in (moved, instant.place))
+            found |= dict.fromkeys(ECCENTRICITIES, shift / float(film.wall.unit[0]))
+            found["attitude_angle"] = math.degrees(shift / size) if size else math.inf
+        return found
 
 
 def placed(film: FreeFilm, instant: Instant) -> Bearing:

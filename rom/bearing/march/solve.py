@@ -67,6 +67,7 @@ class March:
     Attributes
     ----------
     scene : the bearing.
+    placed : the bearing in the coordinates of its wall; a journal is a full bore with its inlet at ``inlet_angle``.
     numerics : the grid and the time steps.
     series : the numbers of every step, ``march["film_min"]``, and fields at some times.
     first, last : times, s, between which the quantities hold: the last period, or all of the time.
@@ -78,6 +79,7 @@ class March:
     """
 
     scene: Bearing
+    placed: Bearing
     numerics: Numerics
     series: Series
     first: float
@@ -226,6 +228,7 @@ def march_bearing(
         titles["inlet_angle"] = "angle of the inlet from the x axis"
     march = March(
         scene=scene,
+        placed=duty.scene,
         numerics=numerics,
         series=series,
         first=summary.first,

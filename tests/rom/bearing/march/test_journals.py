@@ -6,8 +6,8 @@ import pytest
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.geometry.open_bore import OpenBore
+from roughfilm.rom.bearing.march.in_time import in_time, steady
 from roughfilm.rom.bearing.march.journals import with_coordinates
-from roughfilm.rom.bearing.march.quasi_static import in_time, steady
 from roughfilm.rom.bearing.march.solve import march_bearing
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
@@ -111,6 +111,8 @@ def test_changing_loads_are_judged_as_those_of_the_bore():
     judged = in_time(bearing, 0.05)
     assert judged.entries["quasi_static"]["squeeze_number"] > 0
     assert steady(bearing).load_pressure == pytest.approx(700 / (50e-3 * 25e-3), rel=1e-6)
+    path = bare(motion=over_time(eccentricity_x=[0.3, 0.4, 0.3], eccentricity_y=[0.0, 0.1, 0.2]))
+    assert 0.3 < steady(path).geometry.eccentricity < np.hypot(0.4, 0.1) * 1.01
     assert with_coordinates(steady(bearing), (16, 8)).geometry.single
 
 

@@ -16,7 +16,7 @@ TIMES, PERIOD = ["0 ms", "10 ms", "20 ms", "30 ms"], "40 ms"
 CELLS = (24, 8)
 READ = ("speed", "film_force", "pressure_max_x")
 MIRRORED = {"eccentricity_x", "film_force_x", "load_force_x", "eccentricity_x_velocity", "speed"}
-SWAPPED = {"supply_flow_1": "supply_flow_2", "supply_flow_2": "supply_flow_1"}
+SWAPPED = {"gap_1_flow": "gap_2_flow", "gap_2_flow": "gap_1_flow"}
 NOISE = {"film_min_x", "pressure_max_x", "residual", "force_residual", "flow_imbalance", "error", "iterations"}
 
 
