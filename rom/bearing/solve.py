@@ -85,6 +85,7 @@ def solve(
         If the film or its load does not converge.
     """
     cells = request.resolution
+    scene.without_time()  # which refuses a scene that has loads over time alone
     if isinstance(scene.geometry, MovingWall):
         with one_time("start"):
             load_loops(scene.wide)

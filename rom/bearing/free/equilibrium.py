@@ -6,12 +6,12 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
-from roughfilm.rom.bearing.free.closed import closed
+from roughfilm.rom.bearing.free.closed import closed, starved
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.free.idle import idle_pads, with_wedges
+from roughfilm.rom.bearing.free.unbalanced import remedy, unbalanced
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
-from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
 from roughfilm.rom.cavitation.motion.march import held
@@ -81,12 +81,16 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
             "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
         )
     force = film.load if load is None else load
+    if (reason := unbalanced(film, force)) is not None:
+        raise reason
     if start is not None:
         near, last = start, MAX_MOVE
         while last > SETTLED:
             try:
                 instant = _moved(film, near, force, 0.0, tolerance)
             except (ConvergenceError, FloatingPointError):
+                break
+            if starved(film, instant) is not None:
                 break
             move = _move(film, near, instant)
             if move > last:
@@ -136,7 +140,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
         free=np.zeros(count, dtype=bool),
         storage=(0.0, 0.0) if speed or not film.free.any() else (1 / time, held(solved, start) / time),
     )
-    instant = settled(solved, start, given, tolerance=tolerance)
+    instant = settled(solved, start, given, tolerance=tolerance, starved=bool(film.free.any()))
     if not film.free.any():
         return instant
     for _ in range(MAX_STEPS):
@@ -162,6 +166,8 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
                 raise reason
             return _settling(film, wedges, force, tolerance, restarts - 1)
         if last and move <= SETTLED:
+            if (reason := starved(film, instant)) is not None:
+                raise reason
             return instant
         if shaft and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]:
             raise _leaves(force)
@@ -169,9 +175,8 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
     unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
     if shaft and unresisted:
         raise _leaves(force)
-    other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
     raise ConvergenceError(
-        f"load: the motion towards the equilibrium does not settle; take more cells, or {other}",
+        f"load: the motion towards the equilibrium does not settle; {remedy(film.scene)}",
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
     )
@@ -188,7 +193,7 @@ def _moved(film: FreeFilm, instant: Instant, force: Array, rate: float, toleranc
         free=film.free,
         storage=storage,
     )
-    return settled(solved, instant, drive, tolerance=tolerance)
+    return settled(solved, instant, drive, tolerance=tolerance, starved=True)
 
 
 def _move(film: FreeFilm, instant: Instant, following: Instant) -> float:

@@ -141,7 +141,7 @@ def _of_approach(scene: Bearing, within: float) -> InTime:
     enough = abs(change) <= within
     size = f"by {100 * abs(change):.2g} %" if abs(change) <= MAX_CHANGE else f"to {with_it / without:.2g} times"
     rate = within / abs(change) * abs(approach) if change else math.inf
-    moved = f"up to about {rate:.2g} m/s" if enough else f"below about {rate:.2g} m/s it would be"
+    moved = f"up to about {rate:.2g} m/s" if enough else f"below about {rate:.2g} m/s it may be"
     verdict = "may be left out" if enough else "may not be left out"
     return InTime(
         lines=(

@@ -14,11 +14,20 @@ from roughfilm.contact.parameters.definitions import AREAL, GROUPS
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.figures.spatial import relief
+from roughfilm.rom.ladder.model import Availability
 from roughfilm.words.numbers import percent
 
 PARAMETERS = ["Sa", "Sq", "Sp", "Sv", "Sz", "St", "Ssk", "Sku", "Sk", "Spk", "Svk", "Smr1", "Smr2", "Sxp"]
 PARAMETERS += ["Vmp", "Vmc", "Vvc", "Vvv", "Sdq", "Sdr", "Sal", "Str", "Std", "Spd", "Spc", "S5p", "S5v", "S10z"]
 PARAMETERS += ["Spm", "Svm"]
+
+
+@pytest.fixture(autouse=True)
+def _no_picture(request, monkeypatch):
+    """A process of its own draws the surface, which one test is enough to see."""
+    if "drawn" not in request.fixturenames:
+        monkeypatch.setattr(relief, "draw_apart", lambda *_: Availability(available=False, detail="left out"))
 
 
 @pytest.fixture
@@ -137,11 +146,13 @@ def test_people_get_a_table_and_the_warnings(run, csv):
     assert "warning: periodicity mismatch" in done.output
 
 
+@pytest.mark.usefixtures("drawn")
 def test_the_page_holds_its_pictures_and_nothing_from_elsewhere(run, csv, tmp_path):
     done = run(csv, "--report", tmp_path / "page.html")
     assert done.exit_code == 0
     page = (tmp_path / "page.html").read_text()
     assert page.count("<svg") == 5
+    assert "data:image/png" in page or "No picture: " in page
     for title in ("Heights", "Joints", "Bearing curve", "Power spectrum", "Parameters", "Recipe"):
         assert f"<h2>{title}</h2>" in page
     first = page[page.index("<h1>") : page.index("<h2>")]
