@@ -29,7 +29,9 @@ def test_bearings_have_every_shape_texture_and_feed(bearings):
     assert any(one.motion.speed < 0 for one in bearings)
 
 
-@pytest.mark.parametrize("kind", ["bearing", "free_bearing", "placed_bearing", "dry_contact", "seal", "rough_gap", "dimples"])
+@pytest.mark.parametrize(
+    "kind", ["bearing", "free_bearing", "placed_bearing", "dry_contact", "seal", "rough_gap", "dimples"]
+)
 def test_a_seed_is_one_scene(kind):
     first, again, other = (scene_entries(drawn(kind, seed)) for seed in (20003, 20003, 20004))
     assert first == again
