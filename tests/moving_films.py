@@ -102,3 +102,23 @@ def course(film, *, place=None, force=None, speed=None, mass=0.0, scale=1.0):
         stiffness=np.zeros((count, count)),
         velocity_scale=np.full(count, scale),
     )
+
+
+def order(sizes, errors):
+    """The slope of the errors over the sizes, both as logarithms."""
+    return float(np.polyfit(np.log(sizes), np.log(np.abs(errors)), 1)[0])
+
+
+def stored(film, before, after):
+    """∂(θh)/∂t over the whole film, m³/s, by backward Euler or the two-step formula, from the volumes at the times."""
+    volumes = [float((film.grid.areas * known.held).sum()) for known in after.past[:3]]
+    times = [known.time for known in after.past[:3]]
+    if after.order == 1:
+        return (volumes[0] - volumes[1]) / (times[0] - times[1])
+    first, second = times[0] - times[1], times[0] - times[2]
+    assert before.now.time == times[1]
+    return (
+        volumes[0] * (1 / first + 1 / second)
+        - volumes[1] * second / (first * (second - first))
+        + volumes[2] * first / (second * (second - first))
+    )

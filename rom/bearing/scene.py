@@ -157,7 +157,8 @@ class BearingLoad(Part):
     pressure : load over the nominal area (of a journal bearing: diameter times width), Pa.
     force : load of the whole bearing, of a ring with all of its pieces, N.
     force_per_width : load over the width of an infinitely wide bearing, N/m.
-    angle : direction of the load on a shaft in lobes, from the x axis towards the y axis, rad; by default -90°, down.
+    angle : direction of the load on a shaft in lobes, and in a march on any shaft, from the x axis towards the y axis,
+        rad; by default -90°, down.
     moment_x, moment_y : moments on a pivoted pad about the axes along x, the sliding, and along y through its pivot,
         N m; z points from the sliding wall to the pad. Each pad of a bearing has them.
     """
@@ -318,13 +319,13 @@ class Bearing(Scene):
                 "load.force: is that of the whole bearing, whose number of pads is unknown; give geometry.pads, or "
                 "load.pressure"
             )
-        if load.angle != DOWN and not isinstance(self.geometry, Lobes):
+        in_time = self.motion.over_time is not None or self.body is not None
+        if load.angle != DOWN and not isinstance(self.geometry, Shaft if in_time else Lobes):
             raise ValueError(
                 f"load.angle: got one for the shape {self.geometry.shape!r}; only shafts in lobes have one"
             )
         if load.moment_x or load.moment_y:
             self._can_have_moments(load)
-        in_time = self.motion.over_time is not None or self.body is not None
         carried = self.asperities is not None or self.supply or in_time
         if self.motion.speed == 0 and self.motion.approach <= 0 and not carried:
             parts = " between walls that part" if self.motion.approach else ""

@@ -22,7 +22,7 @@ def left_out(march: March) -> str:
 
 def write_page(march: March, entries: Mapping[str, Any], path: Path) -> None:
     """Write the page of a march and of the object of ``--json``; InputError if the file cannot be written."""
-    series, along = march.series, along_of(march.scene)
+    series, along = march.series, along_of(march.placed)
     late = [number for number, time in enumerate(series.time) if time >= march.first]
     least = min(late, key=lambda number: float(series["film_min"][number]))
     near = min(series.snapshots, key=lambda one: abs(one.time - series.time[least]), default=None)

@@ -23,7 +23,8 @@ def unbalanced(film: FreeFilm, force: Array) -> InputError | None:
     """
     geometry = film.scene.geometry
     walls_touch = film.solved.contact is not None
-    if not isinstance(geometry, Tilting) or geometry.tilted or walls_touch or not film.solved.ruptures:
+    loaded = bool(film.free[0])  # at a given film its load is whatever balances the moments
+    if not isinstance(geometry, Tilting) or geometry.tilted or walls_touch or not (film.solved.ruptures and loaded):
         return None
     grid, lowest = film.whole.grid, film.scene.lubricant.cavitation_pressure
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")

@@ -6,10 +6,12 @@ import numpy as np
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.bearing.equilibrium.expected import expected_film
+from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.march.course import Duty
+from roughfilm.rom.bearing.march.journals import opened, with_coordinates
 from roughfilm.rom.bearing.march.on_path import PathLoads, loads_on_path
-from roughfilm.rom.bearing.march.quasi_static import TIMES, marched_change, quasi_static
+from roughfilm.rom.bearing.march.quasi_static import CELLS, TIMES, marched_change, quasi_static
 from roughfilm.rom.bearing.moving.checks import MOMENTS
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
@@ -21,6 +23,9 @@ MAX_CHANGE = 0.3
 
 APPROACH_CELLS = {True: 512, False: 48}
 """Number of cells along a side of the films with and without an approach, infinitely wide (True) and others."""
+
+AT_REST = 1e-6
+"""Speed over the largest one below which a wall that slides back and forth is at rest."""
 
 LOADS, SPEEDS, PATH, APPROACH = "load over time", "speed over time", "path over time", "approach"
 """The beginnings of the sentences."""
@@ -50,8 +55,8 @@ def in_time(scene: Bearing, within: float) -> InTime | None:
         return None
     if given == APPROACH:
         return _of_approach(scene, within)
-    duty = Duty(scene=scene)
     try:
+        duty = Duty(scene=with_coordinates(scene, CELLS))
         if given == PATH:
             found = loads_on_path(duty)
             return _stated(given, "load", found.change, found.squeeze_number, within)
@@ -200,16 +205,22 @@ def steady(scene: Bearing) -> Bearing:
     given = _given(scene)
     if given in (None, APPROACH):
         return scene
-    duty, table = Duty(scene=scene), scene.motion.over_time
+    duty = Duty(scene=opened(scene) if given == LOADS else with_coordinates(scene, CELLS))
+    table = scene.motion.over_time
     assert table is not None
     if given == PATH:
-        return _on_path(duty, loads_on_path(duty))
+        return _on_path(scene, duty, loads_on_path(duty))
     if given == SPEEDS:
         found = quasi_static(duty)
         at = float(found.time[int(np.argmin(found.film_min))])
     else:
         times = np.linspace(table.table.time[0], table.table.time[-1], 20 * TIMES + 1)
         at = float(max(times, key=lambda time: float(np.linalg.norm(duty.load(time)[: 2 if duty.lobes else 1]))))
+        if duty.reverses and abs(duty.speed(at)) <= AT_REST * max(abs(duty.speed(float(time))) for time in times):
+            raise InputError(
+                f"motion.over_time.speed: got {duty.speed(at):.4g} m/s at {at:.4g} s with the largest load, which no "
+                "steady film carries then; take roughfilm march, or another speed then"
+            )
     motion = scene.motion.model_copy(update={"speed": _speed(duty, at), "over_time": None})
     return scene.model_copy(update={"load": duty.steady_load(at), "motion": motion, "body": None})
 
@@ -220,14 +231,16 @@ def _speed(duty: Duty, time: float) -> float:
     return duty.speed(time) * (radius if not duty.lobes and radius is not None else 1.0)
 
 
-def _on_path(duty: Duty, found: PathLoads) -> Bearing:
+def _on_path(scene: Bearing, duty: Duty, found: PathLoads) -> Bearing:
     """The scene at the place of a path at which the load is largest."""
-    scene, number = duty.scene, int(np.argmax(found.load))
+    number = int(np.argmax(found.load))
     geometry, place = scene.geometry, found.place[number]
     speed = _speed(duty, float(found.time[number]))
     motion = scene.motion.model_copy(update={"speed": speed, "over_time": None})
     if isinstance(geometry, MovingWall):
         moved = scene.moved(geometry.at(place))
+    elif isinstance(geometry, Journal):
+        moved = scene.at_film(geometry.clearance - float(np.hypot(*place[:2])))
     else:
         moved = scene.at_film(float(place[0]))
         motion = motion.model_copy(update={"approach": -float(found.velocity[number, 0])})

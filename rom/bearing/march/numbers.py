@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -122,6 +123,11 @@ class Observer:
         return places
 
     @cached_property
+    def _back(self) -> Self:
+        """The numbers while the wall slides in the direction opposite to that of the film."""
+        return replace(self, film=self.film.reversed)
+
+    @cached_property
     def _inflows(self) -> tuple[str, ...]:
         """The names of the inflows: the gaps between lobes, then the supplies of the scene."""
         supplies = len(self.duty.scene.supply)
@@ -136,6 +142,9 @@ class Observer:
 
     def row(self, moving: Moving) -> Array:
         """The numbers of a step, in the order of ``units``."""
+        return (self._back if moving.turned else self)._row(moving)
+
+    def _row(self, moving: Moving) -> Array:
         instant, film, time = moving.instant, self.film.solved, moving.now.time
         wall, speed = self.film.wall, self.duty.speed(time)
         velocity, scale = moving.now.velocity, np.where(wall.turns, 1.0, wall.unit[0])
@@ -157,16 +166,22 @@ class Observer:
         values += [stored, rate, imbalance, cavitated, moving.step, moving.order, moving.error]
         return np.array([*values, self._residual(instant), instant.force_residual, instant.iterations], dtype=float)
 
-    def fields(self, instant: Instant) -> dict[str, tuple[Array, str]]:
+    def fields(self, moving: Moving) -> dict[str, tuple[Array, str]]:
         """Film thickness, pressure above ambient and density ratio over the whole width, shape (nx, ny)."""
-        solution = self._solution(instant, self.film.solved.problem.speed)
-        lowest, wide = self.duty.scene.lubricant.cavitation_pressure, self.film.widened
-        turn = slice(None, None, -1) if self.film.turned else slice(None)
-        return {
-            "film_thickness": (wide(instant.faces.thickness)[turn], "m"),
-            "pressure": (wide(instant.state.pressure)[turn] + lowest, "Pa"),
-            "density_ratio": (wide(density_ratio(solution))[turn], "1"),
+        instant, at = moving.instant, self._back if moving.turned else self
+        lowest, film = self.duty.scene.lubricant.cavitation_pressure, self.film
+        found = {
+            "film_thickness": (instant.faces.thickness, "m"),
+            "pressure": (instant.state.pressure + lowest, "Pa"),
+            "density_ratio": (density_ratio(at._solution(instant, film.solved.problem.speed)), "1"),
         }
+
+        def placed(values: Array) -> Array:
+            """Values over the whole width in order of the positions of the scene."""
+            values = film.widened(film.solved.turned_round(values) if moving.turned else values)
+            return values[::-1] if film.turned else values
+
+        return {name: (placed(values), unit) for name, (values, unit) in found.items()}
 
     @cached_property
     def grid(self) -> dict[str, tuple[Array, str]]:

@@ -6,9 +6,11 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
+from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.course import Duty, film_at
-from roughfilm.rom.bearing.march.quasi_static import CELLS, RESIDUAL, TIMES, at_speed, times_of
+from roughfilm.rom.bearing.march.quasi_static import CELLS, RESIDUAL, TIMES, at_speed, carried_over, times_of
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
+from roughfilm.rom.cavitation.motion.coupled import Instant
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,29 +54,32 @@ def loads_on_path(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TI
         If a film does not converge, or nothing slides.
     """
     film, time = film_at(duty, cells), times_of(duty, times)
-    states, last = [], None
+    states: list[tuple[FreeFilm, Instant]] = []
     for at in time:
         given = duty.place(float(at), film)
-        placed = at_speed(film, abs(duty.speed(float(at))))
+        placed = at_speed(film, duty.speed(float(at)))
         start = None
-        if last is None:
-            placed = replace(placed, wall=replace(placed.wall, place=np.where(film.free, film.wall.place, given)))
-        else:
+        if states:
+            last = carried_over(*states[-1], placed)
             start = replace(last, place=np.where(film.free, last.place, given))
-        last = equilibrium(placed, start, tolerance=RESIDUAL, load=np.zeros(given.size))
-        states.append(last)
-    place = np.array([state.place for state in states])
+        else:
+            placed = replace(placed, wall=replace(placed.wall, place=np.where(film.free, film.wall.place, given)))
+        states.append((placed, equilibrium(placed, start, tolerance=RESIDUAL, load=np.zeros(given.size))))
+    place = np.array([state.place for _, state in states])
     velocity = np.gradient(place, time, axis=0)
     still, moving, free = ~film.wall.turns, [], film.free
-    for number, (at, state) in enumerate(zip(time, states, strict=True)):
-        found = coefficients(film.solved, state, speed=abs(duty.speed(float(at))))
+    for number, (placed, state) in enumerate(states):
+        found = coefficients(placed.solved, state, speed=placed.solved.problem.speed)
         by_squeeze = -found.damping @ velocity[number]
         if free.any():
             turned = np.zeros(free.size)
             turned[free] = np.linalg.lstsq(found.stiffness[np.ix_(free, free)], by_squeeze[free], rcond=None)[0]
             by_squeeze = by_squeeze - found.stiffness @ turned
         moving.append(by_squeeze)
-    forces, squeezed = np.array([film.solved.force(state.state.pressure) for state in states]), np.array(moving)
+    forces, squeezed = (
+        np.array([placed.solved.force(state.state.pressure) for placed, state in states]),
+        np.array(moving),
+    )
     load, by_squeeze = (np.linalg.norm(one[:, still], axis=1) for one in (forces, squeezed))
     return PathLoads(
         time=time,

@@ -13,7 +13,7 @@ from roughfilm.rom.bearing.march.course import STEPS_PER_TABLE, Duty, course_of,
 from roughfilm.rom.bearing.march.numbers import Observer
 from roughfilm.rom.bearing.march.series import Numerics, run
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
-from roughfilm.rom.cavitation.motion.coupled import Instant
+from roughfilm.rom.cavitation.motion.coupled import Instant, turned_round
 
 CELLS = (48, 24)
 """Cells along and across of the films."""
@@ -71,20 +71,20 @@ def quasi_static(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIM
     """
     film = film_at(duty, cells)
     time = times_of(duty, times)
-    instants = _equilibria(duty, film, time)
-    place = np.array([instant.place for instant in instants])
+    found = _equilibria(duty, film, time)
+    place = np.array([instant.place for _, instant in found])
     velocity = np.gradient(place, time, axis=0)
     mass = course_of(duty, film).mass
     motion = []
-    for number, (at, instant) in enumerate(zip(time, instants, strict=True)):
-        found = coefficients(film.solved, instant, speed=abs(duty.speed(at)))
-        forces = found.damping @ velocity[number] + mass @ np.gradient(velocity, time, axis=0)[number]
-        motion.append((forces, np.linalg.lstsq(found.stiffness, -forces, rcond=None)[0]))
+    for number, (placed, instant) in enumerate(found):
+        linear = coefficients(placed.solved, instant, speed=placed.solved.problem.speed)
+        forces = linear.damping @ velocity[number] + mass @ np.gradient(velocity, time, axis=0)[number]
+        motion.append((forces, np.linalg.lstsq(linear.stiffness, -forces, rcond=None)[0]))
     least, moved = [], []
-    for instant, (_, change) in zip(instants, motion, strict=True):
+    for (placed, instant), (_, change) in zip(found, motion, strict=True):
         thickness = instant.faces.thickness
         least.append(float(thickness.min()))
-        moved.append(max(float((thickness + film.solved.at_nodes @ change).min()), 0.0))
+        moved.append(max(float((thickness + placed.solved.at_nodes @ change).min()), 0.0))
     moving = ~film.wall.turns
     loads = np.array([np.linalg.norm(duty.load(at)[: moving.size][moving]) for at in time])
     pulls = np.array([np.linalg.norm(forces[moving]) for forces, _ in motion])
@@ -136,26 +136,35 @@ def marched_change(
     series = run(smooth, Numerics(cells=cells, end=last, error=error, step=step), progress=limited)
     film, time = film_at(smooth, cells), times_of(smooth, times)
     observer = Observer(duty=smooth, film=film)
-    least = min(observer.least(one.faces.thickness)[0] for one in _equilibria(smooth, film, time))
+    least = min(observer.least(one.faces.thickness)[0] for _, one in _equilibria(smooth, film, time))
     return float(series["film_min"][series.time >= last - length * (1 + 1e-9)].min() / least - 1)
 
 
-def _equilibria(duty: Duty, film: FreeFilm, time: Array) -> list[Instant]:
-    """The film in equilibrium with the load at each time, each from the one before."""
-    instants: list[Instant] = []
+def _equilibria(duty: Duty, film: FreeFilm, time: Array) -> list[tuple[FreeFilm, Instant]]:
+    """The film in equilibrium with the load at each time, each from the one before, and mirrored if it slides back."""
+    found: list[tuple[FreeFilm, Instant]] = []
     for at in time:
-        placed = at_speed(film, abs(duty.speed(float(at))))
-        start = instants[-1] if instants else None
+        placed = at_speed(film, duty.speed(float(at)))
+        start = carried_over(*found[-1], placed) if found else None
         load = duty.load(float(at))[: film.wall.place.size]
-        instants.append(equilibrium(placed, start, tolerance=RESIDUAL, load=load))
-    return instants
+        found.append((placed, equilibrium(placed, start, tolerance=RESIDUAL, load=load)))
+    return found
 
 
 def at_speed(film: FreeFilm, speed: float) -> FreeFilm:
-    """The film at another sliding speed of the same direction, m/s (rad/s)."""
-    of = {name: replace(part.problem, speed=speed) for name, part in (("whole", film.whole), ("solved", film.solved))}
+    """The film at another sliding speed, m/s (rad/s), mirrored if the wall slides in the other direction."""
+    placed = film.reversed if speed and (speed < 0) != film.turned else film
+    of = {
+        name: replace(part.problem, speed=abs(speed))
+        for name, part in (("whole", placed.whole), ("solved", placed.solved))
+    }
     return replace(
-        film,
-        whole=replace(film.whole, problem=of["whole"]),
-        solved=replace(film.solved, problem=of["solved"]),
+        placed,
+        whole=replace(placed.whole, problem=of["whole"]),
+        solved=replace(placed.solved, problem=of["solved"]),
     )
+
+
+def carried_over(before: FreeFilm, instant: Instant, film: FreeFilm) -> Instant:
+    """An instant of a film as one of the film at another speed, which may be mirrored."""
+    return instant if before.turned == film.turned else turned_round(before.solved, instant)

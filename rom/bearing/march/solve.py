@@ -12,7 +12,9 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.ranges import in_range, whole_in_range
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.geometry.open_bore import OpenBore
 from roughfilm.rom.bearing.march.course import Duty, film_at, refuse_unsupported
+from roughfilm.rom.bearing.march.journals import with_coordinates
 from roughfilm.rom.bearing.march.rough_walls import walls_of
 from roughfilm.rom.bearing.march.series import Numerics, Series, run
 from roughfilm.rom.bearing.march.store import finish, keeper, kept
@@ -72,6 +74,7 @@ class March:
     Attributes
     ----------
     scene : the bearing.
+    placed : the bearing in the coordinates of its wall; a journal is a full bore with its inlet at ``inlet_angle``.
     numerics : the grid and the time steps.
     series : the numbers of every step, ``march["film_min"]``, and fields at some times.
     first, last : times, s, between which the quantities hold: the last period, or all of the time.
@@ -83,6 +86,7 @@ class March:
     """
 
     scene: Bearing
+    placed: Bearing
     numerics: Numerics
     series: Series
     first: float
@@ -174,7 +178,7 @@ def march_bearing(
     ConvergenceError
         If a film becomes too thin, or a step does not converge.
     """
-    duty = Duty(scene=scene)
+    duty = Duty(scene=with_coordinates(scene, cells))
     refuse_unsupported(duty)
     numerics = numerics_of(duty, end=end, error=error, steps=steps, cells=cells, fields=fields)
     entries = scene_entries(scene)
@@ -225,8 +229,14 @@ def march_bearing(
                 warnings.append(
                     f"{', '.join(sorted(unknown))}: unknown uncertainty, as the roughness has too few points"
                 )
+    bore, titles = duty.scene.geometry, dict(summary.titles)
+    if isinstance(bore, OpenBore):
+        angle = math.remainder(bore.first + math.pi, 2 * math.pi)
+        quantities["inlet_angle"] = Quantity(value=math.degrees(angle), unit="deg")
+        titles["inlet_angle"] = "angle of the inlet from the x axis"
     march = March(
         scene=scene,
+        placed=duty.scene,
         numerics=numerics,
         series=series,
         first=summary.first,
@@ -234,7 +244,7 @@ def march_bearing(
         state=summary.state,
         settled=summary.settled,
         quantities=quantities,
-        titles=summary.titles,
+        titles=titles,
         warnings=tuple(warnings),
     )
     if path is not None:

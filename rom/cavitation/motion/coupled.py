@@ -328,6 +328,20 @@ def full_film(film: MovingFilm, place: Array) -> Instant:
     )
 
 
+def turned_round(film: MovingFilm, instant: Instant) -> Instant:
+    """An instant of a film as one of the film mirrored in x."""
+    other, turned = film.mirrored, film.turned_round
+    faces = other.faces(instant.place)
+    return replace(
+        instant,
+        state=State(pressure=turned(instant.state.pressure), fill=turned(instant.state.fill)),
+        kind=turned(instant.kind),
+        faces=faces,
+        network=other.network(faces, instant.pressures, speed=other.problem.speed),
+        balance=turned(instant.balance),
+    )
+
+
 def trial_at(film: MovingFilm, instant: Instant, drive: Drive) -> Trial:
     """The unknowns at an instant, not yet evaluated."""
     return Trial(

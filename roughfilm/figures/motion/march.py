@@ -37,7 +37,7 @@ FLOW = 60e6
 
 def orbit(march: March) -> Figure:
     """The path of the centre of the shaft over the clearance, in the room that the bore leaves it."""
-    limit = room(march.scene)
+    limit = room(march.placed)
     width, height = (float(np.nanmax(edge) - np.nanmin(edge)) for edge in limit)
     figure, axes = new_figure((8.4, min(max(0.6 + 4.6 * height / width, 2.4), 6.0)))
     x, y = march["eccentricity_x"], march["eccentricity_y"]
@@ -48,6 +48,9 @@ def orbit(march: March) -> Figure:
     least = int(np.argmin(np.where(late, march["film_min"], np.inf)))
     axes.plot(x[0], y[0], "o", color="#444444", markersize=4, label="start")
     axes.plot(x[least], y[least], "o", color=COLOURS[1], markersize=5, label="least film")
+    if "inlet_angle" in march.quantities:
+        inlet = np.radians(march.quantities["inlet_angle"].value)
+        axes.plot(np.cos(inlet), np.sin(inlet), "s", color=COLOURS[2], markersize=6, label="inlet")
     axes.set(xlabel="x over the clearance", ylabel="y over the clearance", aspect="equal")
     axes.legend(fontsize=9, loc="center left", bbox_to_anchor=(1.02, 0.5))
     return figure
@@ -160,7 +163,7 @@ def _shade(axes: Axes, first: float, last: float) -> None:
 def film(march: March, snapshot: Snapshot) -> Figure:
     """Pressure and film thickness over the unrolled film at one time."""
     figure, panels = new_figure((11.4, 3.6), 1, 2)
-    axis, x, y = along_of(march.scene), march.series.grid["x"][0], 1e3 * march.series.grid["y"][0]
+    axis, x, y = along_of(march.placed), march.series.grid["x"][0], 1e3 * march.series.grid["y"][0]
     along = axis(x)
     for axes, name, scale, title, map_ in (
         (panels[0], "pressure", 1e-6, "pressure above ambient, MPa", "magma"),

@@ -434,6 +434,13 @@ def test_a_load_that_turns_at_half_of_the_speed_leaves_a_thinner_film() -> None:
     assert 1e6 * least["half speed"] == pytest.approx(3.8, abs=0.2)
 
 
+def test_the_film_of_a_pin_that_swings_is_thinnest_between_the_reversals() -> None:
+    least = values_of("bearings/swinging_pin")["least"]
+    assert 1e6 * least[400][0] == pytest.approx(2.0, abs=0.1)
+    assert 1e6 * least[200][0] == pytest.approx(1.28, abs=0.1)
+    assert all(abs(at % 0.5 - 0.25) > 0.1 for _, at in least.values())
+
+
 def test_the_load_of_a_washer_moves_from_asperities_to_the_film() -> None:
     values = values_of("mixed_lubrication/stribeck_washer")
     assert values["lift_off"] == pytest.approx([0.14, 0.60], abs=0.006)

@@ -75,6 +75,28 @@ def test_loads_that_differ_a_little_move_the_shaft_by_the_inverse_of_the_stiffne
         assert np.linalg.inv(np.transpose(moved)) == pytest.approx(found, rel=1e-4)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_random_shafts_in_contact_are_mirrored_with_their_load_and_scale_with_the_viscosity(tips, seed):
+    rng = np.random.default_rng(seed)
+    speed, thin, angle = 10 ** rng.uniform(-1.5, -0.5), rng.uniform(2, 5), rng.uniform(-110, -70)
+
+    def point(speed, viscosity, angle):
+        lubricant, load = {"viscosity": f"{viscosity!r} Pa*s"}, {"pressure": "5 MPa", "angle": f"{angle!r} deg"}
+        scene = tips.scene(GROOVED, lubricant=lubricant, motion={"speed": f"{speed!r} m/s"}, load=load)
+        film = film_of(scene, 16)
+        return grid_point(film, equilibrium(film, None, tolerance=1e-11), 1.0).numbers
+
+    own, mirrored = point(speed, 0.1, angle), point(-speed, 0.1, -180 - angle)
+    thinner = point(thin * speed, 0.1 / thin, angle)
+    assert own["contact_share"] > 0
+    for matrix, scale in (("stiffness", 1.0), ("damping", thin)):
+        size = abs(own[f"{matrix}_yy"])
+        for entry, sign in (("xx", 1), ("xy", -1), ("yx", -1), ("yy", 1)):
+            name = f"{matrix}_{entry}"
+            assert sign * mirrored[name] == pytest.approx(own[name], rel=1e-5, abs=1e-6 * size)
+            assert scale * thinner[name] == pytest.approx(own[name], rel=1e-5, abs=1e-6 * size)
+
+
 def test_thicker_oil_moves_the_shaft_as_pressures_of_an_uncertain_film_do():
     bearing = at_operation(ridged(), 2.0, PRESSURE)
     film, walls = film_of(bearing), replace(walls_of(bearing), of_factors=lambda _film: 0.02)

@@ -96,7 +96,6 @@ FAULTS = {
     "beyond the bore": ({"time": TIMES, "eccentricity_x": [0, 0.8], "eccentricity_y": [0, 0.7]}, {}, "into the bore"),
     "negative film": ({"time": TIMES, "film": ["1 um", "-1 um"]}, {"geometry": PAD}, "above zero"),
     "film of a shaft": ({"time": TIMES, "film": ["1 um", "2 um"]}, {}, "give eccentricity_x"),
-    "both directions": ({"time": TIMES, "speed": ["-1 m/s", "1 m/s"], "load": ["1 N"] * 2}, {}, "both signs"),
     "open period": ({"time": TIMES, "load": ["1 N", "2 N"], "period": "1 s"}, {}, "ends where it begins"),
     "short period": ({"time": TIMES, "load": ["1 N", "2 N"], "period": "0.5 s"}, {}, "the rows span"),
     "no file": ({"file": "/nowhere.csv"}, {}, "no such file"),
@@ -104,11 +103,6 @@ FAULTS = {
         {"time": TIMES, "eccentricity_x": [0, 0.1], "eccentricity_y": [0, 0]},
         {"body": {"mass": "1 kg"}},
         "no load acts on",
-    ),
-    "journal": (
-        {"time": TIMES, "load": ["1 N"] * 2},
-        {"geometry": {"shape": "journal", "radius": "25 mm", "clearance": "25 um", "eccentricity": 0.5}},
-        "take shape = 'lobes'",
     ),
 }
 
