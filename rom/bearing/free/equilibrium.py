@@ -57,8 +57,9 @@ UNRESISTED = 1e-9
 def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load: Array | None = None) -> Instant:
     """The film at which the load of the scene and the force of the film balance.
 
-    It is the end of a motion without mass by backward Euler steps, each ``GROWTH`` times as long as the one before. Of
-    two equilibria of tilting pads it is the one in which fewer pads are idle. From a start that is near enough, the first step is that of a steady film.
+    It is the end of a motion without mass by backward Euler steps, each ``GROWTH`` times as long as the one before.
+    From a start that is near enough, the first step is that of a steady film. Of two equilibria of tilting pads it is
+    the one in which fewer pads are idle.
 
     Parameters
     ----------
@@ -162,7 +163,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
         if (reason := closed(film, instant, force)) is not None:
             idle = idle_pads(film, instant) if restarts else []
             wedges = with_wedges(film, instant, idle, tolerance=tolerance) if idle else None
-            if wedges is None:
+            if wedges is None or solved.room(wedges.place) <= solved.room(instant.place):
                 raise reason
             return _settling(film, wedges, force, tolerance, restarts - 1)
         if last and move <= SETTLED:
@@ -176,6 +177,9 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
     if shaft and unresisted:
         raise _leaves(force)
     other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
+    idle = idle_pads(film, instant)
+    if idle and film.scene.lubricant.cavitation_pressure < 0:
+        other += f", or cavitation at ambient pressure, since suction acts on pad {idle[0] + 1}, which carries no load"
     raise ConvergenceError(
         f"load: the motion towards the equilibrium does not settle; take more cells, or {other}",
         outcome=Outcome.STALLED,
