@@ -125,7 +125,7 @@ def stored(film, before, after):
 
 
 def damping_of_slow_motions(film, place):
-    """B, column by column: motions that pass the place at ±v long after their start have forces that differ by -2 B v."""
+    """B: motions that pass the place at ±v long after their start have forces that differ by -2 B v."""
     turn = 2 * np.pi * RADIUS / SPEED
     step, count, velocity = turn / 4, 16, 1e-4 * CLEARANCE / turn
     columns = []
