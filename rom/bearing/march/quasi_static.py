@@ -135,8 +135,10 @@ def marched_change(
 
     series = run(smooth, Numerics(cells=cells, end=last, error=error, step=step), progress=limited)
     film, time = film_at(smooth, cells), times_of(smooth, times)
-    observer = Observer(duty=smooth, film=film)
-    least = min(observer.least(one.faces.thickness)[0] for _, one in _equilibria(smooth, film, time))
+    least = min(
+        Observer(duty=smooth, film=placed).least(one.faces.thickness)[0]
+        for placed, one in _equilibria(smooth, film, time)
+    )
     return float(series["film_min"][series.time >= last - length * (1 + 1e-9)].min() / least - 1)
 
 

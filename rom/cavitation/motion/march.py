@@ -189,13 +189,13 @@ def march(
         ):
             size *= min(ratio, 0.7)
             if size < MIN_STEP * largest_step:
-                raise _stopped(film, course, moving, closest, following)
+                raise _stopped(film.mirrored if moving.turned else film, course, moving, closest, following)
             continue
         size *= ratio
         moving = replace(following, following=size)
         least = float(moving.instant.faces.thickness.min())
         if least < closest:
-            raise _stopped(film, course, moving, closest, None)
+            raise _stopped(film.mirrored if moving.turned else film, course, moving, closest, None)
         short = short + 1 if moving.step < SHORT_STEP * largest_step else 0
         if short > MAX_SHORT_STEPS:
             raise _too_fast(course, moving)
