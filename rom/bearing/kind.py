@@ -132,6 +132,7 @@ def validation_faults(error: ValidationError, _entries: Mapping[str, Any]) -> li
 
 NUMBERS = {
     "slenderness": "B/L",
+    "piece_slenderness": "B/L of a lobe or pad",
     "convergence": "rise/h",
     "thickness_ratio": "h_max/h",
     "divergence": "widening/h",

@@ -5,7 +5,7 @@ import html
 import io
 import json
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -194,8 +194,7 @@ def svg(figure: Figure) -> str:
     and drawn once; ``Figure.savefig`` draws it one more time, without output, to lay it out.
     """
     buffer = io.StringIO()
-    write: Callable[..., None] = FigureCanvasSVG(figure).print_svg
-    write(buffer, metadata={"Date": None})
+    FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})  # type: ignore[no-untyped-call]
     text = buffer.getvalue()
     text = text[text.index("<svg") :]
     own = "f" + hashlib.sha256(text.encode()).hexdigest()[:8] + "-"

@@ -28,6 +28,8 @@ def unbalanced(film: FreeFilm, force: Array) -> InputError | None:
     grid, lowest = film.whole.grid, film.scene.lubricant.cavitation_pressure
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     load = -force[0] - lowest * float(grid.areas.sum())
+    if load <= 0:
+        return None
     for normal, on_slope, key in zip(film.whole.normals[1:], -force[1:], ("moment_y", "moment_x"), strict=False):
         place = normal(x, y)
         first, last, at_rest = float(place.min()), float(place.max()), lowest * float((grid.areas * place).sum())
