@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure
 from roughfilm.figures.sets.bands import MEAN_ALPHA, WINDOW_ALPHA
+from roughfilm.figures.shafts.angles import Along
 from roughfilm.figures.ticks import plain_logarithmic
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve
@@ -36,13 +37,17 @@ MIN_CONTACT_PRESSURE = 1e3
 
 @dataclass(frozen=True, kw_only=True)
 class Drawn:
-    """A film that is drawn: ``x``, ``y`` of its nodes, shape (nx, ny), m, its pressure and that of contact, Pa."""
+    """A film that is drawn: ``x``, ``y`` of its nodes, shape (nx, ny), m, its pressure and that of contact, Pa.
+
+    ``along`` is the axis along the film; None of a ring, which is drawn in its plane.
+    """
 
     title: str
     x: Array
     y: Array
     film: Array
     contact: Array
+    along: Along | None = None
 
 
 def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | None, own: float) -> Figure:
@@ -167,14 +172,16 @@ def films(drawn: Sequence[Drawn]) -> Figure:
                 axes.text(0.5, 0.5, f"{one.title}:\nno {kind} pressure", ha="center", transform=axes.transAxes)
                 continue
             axes.set_title(f"{one.title}: {kind}", fontsize=10)
+            x = 1e3 * one.x if one.along is None else one.along(one.x)
+            label = "x, mm" if one.along is None else one.along.label
             if one.x.shape[1] == 1:
-                axes.plot(1e3 * one.x, values / 1e6, color=COLOURS[0])
-                axes.set(xlabel="along the sliding, mm", ylabel=f"{kind} pressure, MPa")
+                axes.plot(x, values / 1e6, color=COLOURS[0])
+                axes.set(xlabel=label, ylabel=f"{kind} pressure, MPa")
                 continue
             axes.grid(visible=False)
-            axes.set_aspect("equal")
+            axes.set_aspect("auto" if one.along is not None and one.along.around else "equal")
             image = axes.pcolormesh(
-                1e3 * one.x,
+                x,
                 1e3 * one.y,
                 values / 1e6,
                 shading="gouraud",
@@ -183,6 +190,9 @@ def films(drawn: Sequence[Drawn]) -> Figure:
                 vmax=top / 1e6,
                 rasterized=True,
             )
-            axes.set(xlabel="x, mm", ylabel="y, mm")
+            axes.set(xlabel=label, ylabel="y, mm" if one.along is None else "across, mm")
+            if one.along is not None:
+                one.along.mark(axes, covered=True)
+                one.along.outline(axes)
             figure.colorbar(image, ax=axes, label=f"{kind} pressure, MPa", shrink=0.85)
     return figure

@@ -10,6 +10,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures import stribeck as stribeck_figures
 from roughfilm.figures.base import svg
+from roughfilm.figures.shafts.angles import Along, along_of
 from roughfilm.figures.stribeck import Drawn
 from roughfilm.pages.render import render
 from roughfilm.rom.bearing.geometry.ring import Ring
@@ -46,14 +47,16 @@ def write_page(
     path: Path,
 ) -> None:
     """Write the page of curves and of the object of ``--json``; InputError if the file cannot be written."""
-    scale = speed_scale(scene)
+    scale, along = speed_scale(scene), along_of(scene)
     unit, factor = scale.unit, scale.factor
     middle = curves[len(curves) // 2]
     speeds, pressures = [point.speed for point in middle.points], [curve.pressure for curve in curves]
     search = curve_search(scene, asperities, speeds, pressures, resolution, LOAD_TOLERANCE)
     drawn = [
-        drawn_film(search.again(point.speed, point.pressure, point.separation), f"{factor * point.speed:.3g} {unit}")
-        for point in shown_points(middle)
+        drawn_film(
+            search.again(point.speed, point.pressure, point.separation), f"{factor * point.speed:.4g} {unit}", along
+        )
+        for point in shown_points(middle, own_point(scene, middle))
     ]
     columns = [column for column in COLUMNS if asperities is not None or column[2] not in OF_CONTACT]
     touching = None if asperities is None else asperities.touching
@@ -83,6 +86,7 @@ def write_page(
         curves=svg(stribeck_figures.curves(curves, scale, touching, abs(scene.motion.speed))),
         films=svg(stribeck_figures.films(drawn)),
         contact=any(one.contact.any() for one in drawn),
+        along=None if isinstance(scene.geometry, Ring) else along,
         table=None if asperities is None else svg(stribeck_figures.asperity_table(asperities)),
         touching=touching,
     )
@@ -115,12 +119,14 @@ def _answer(scene: Bearing, curve: StribeckCurve, scale: SpeedScale) -> Answer:
         friction="" if own is None else number_of(own, "friction_coefficient"),
         film="" if own is None else number_of(own, "least_gap", 1e6),
         contact="" if own is None else number_of(own, "contact_share", 100.0),
-        least=f"{least.friction_coefficient:.3g} at {scale.factor * least.speed:.3g} {scale.unit}",
+        least=f"{least.friction_coefficient:.3g} at {scale.factor * least.speed:.4g} {scale.unit}",
     )
 
 
-def shown_points(curve: StribeckCurve) -> list[StribeckPoint]:
-    """The points whose films are drawn: a mixed film and the first without contact, as far as there are any."""
+def shown_points(curve: StribeckCurve, own: StribeckPoint | None) -> list[StribeckPoint]:
+    """The points whose films are drawn: a mixed film and the first without contact, or that of the scene's speed."""
+    if own is not None and all(point.contact_load == 0 for point in curve.points):
+        return [own]
     mixed = [point for point in curve.points if point.contact_load > 0 and point.speed > 0]
     parted = [point for point in curve.points if point.contact_load == 0]
     nearest = min(mixed, key=lambda point: abs(point.contact_share - DRAWN_CONTACT_SHARE)) if mixed else curve.points[0]
@@ -128,7 +134,7 @@ def shown_points(curve: StribeckCurve) -> list[StribeckPoint]:
     return [nearest, last] if last is not nearest else [nearest]
 
 
-def drawn_film(mixed: MixedState, title: str) -> Drawn:
+def drawn_film(mixed: MixedState, title: str, along: Along | None = None) -> Drawn:
     """Pressures of film and contact at the nodes; a closed ring repeats its first line after the last."""
     grid, geometry = mixed.solution.grid, mixed.scene.geometry
     pressure = mixed.solution.state.pressure + mixed.scene.lubricant.cavitation_pressure
@@ -137,7 +143,7 @@ def drawn_film(mixed: MixedState, title: str) -> Drawn:
     title += f", {100 * fraction:.3g} % by contact" if fraction > 0 else ", no contact"
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     if not isinstance(geometry, Ring):
-        return Drawn(title=title, x=x, y=y, film=pressure, contact=contact)
+        return Drawn(title=title, x=x, y=y, film=pressure, contact=contact, along=along)
     if geometry.endless:
         x = np.vstack([x, x[:1] + geometry.turn])
         y, pressure, contact = (_closed(values) for values in (y, pressure, contact))
