@@ -117,19 +117,31 @@ def faces_of(thickness: Iterator[Array], shape: Shape, grid: Grid) -> Faces:
 
 @unreordered
 def add_along(square, cube, strips, mean, east, parts):  # type: ignore[no-untyped-def]
-    """Add the flow along a strip of every face, from h⁻² and h⁻³ at its Gauss points and its parts."""
+    """Add the flow along a strip of every face, from h⁻² and h⁻³ at its Gauss points and its parts, which are summed.
+
+    Loops over one row each are vectorised.
+    """
     points, last, ny = square.shape
+    weight = 1 / strips
     for i in range(last):
+        first, second, between, towards = cube[0, i], cube[1, i], mean[i], east[i]
+        along, ahead = square[0, i], square[1, i]
         for j in range(ny):
-            cubed = cube[0, i, j] + cube[1, i, j]
-            mean[i, j] += (square[0, i, j] + square[1, i, j]) / cubed / strips
-            east[i, j] += 2 / cubed / strips
-            squared = cubed = 0.0
-            for part in range(points - 2):
-                squared += square[2 + part, i, j] * 0.25
-                cubed += cube[2 + part, i, j] * 0.25
-                parts[0, part, i, j] += squared / cubed / strips
-                parts[1, part, i, j] += 1 / cubed / strips
+            flow = weight / (first[j] + second[j])
+            between[j] += (along[j] + ahead[j]) * flow
+            towards[j] += 2 * flow
+        for part in range(points - 2):
+            squared, cubed = square[2 + part, i], cube[2 + part, i]
+            if part:
+                before, behind = square[1 + part, i], cube[1 + part, i]
+                for j in range(ny):
+                    squared[j] += before[j]
+                    cubed[j] += behind[j]
+            between, towards = parts[0, part, i], parts[1, part, i]
+            for j in range(ny):
+                flow = weight / cubed[j]
+                between[j] += squared[j] * flow
+                towards[j] += flow / PARTS[0]
 
 
 @unreordered
@@ -144,19 +156,27 @@ def add_across(cube, north):  # type: ignore[no-untyped-def]
 def _resistance(shape: Shape, h: Array) -> tuple[Array, Array]:
     """h⁻² and h⁻³, or B₁/A₁₁ and 1/A₁₁ with averaged roughness."""
     if shape.roughness is None:
-        inverse = 1 / h
-        square = inverse * inverse
-        return square, square * inverse
+        square, cube = np.empty(h.shape), np.empty(h.shape)
+        invert(np.ravel(h), square.reshape(-1), cube.reshape(-1))
+        return square, cube
     factors = shape.roughness(h)
     return factors.drag / factors.along, 1 / factors.along
 
 
 def _resistance_across(shape: Shape, h: Array) -> Array:
     """h⁻³, or 1/A₂₂ with averaged roughness."""
-    if shape.roughness is not None:
-        return np.asarray(1 / shape.roughness(h).across)
-    inverse = 1 / h
-    return np.asarray(inverse * inverse * inverse)
+    if shape.roughness is None:
+        return _resistance(shape, h)[1]
+    return np.asarray(1 / shape.roughness(h).across)
+
+
+@unreordered
+def invert(thickness, square, cube):  # type: ignore[no-untyped-def]
+    """Write h⁻² and h⁻³."""
+    for n in range(thickness.size):
+        inverse = 1 / thickness[n]
+        square[n] = inverse * inverse
+        cube[n] = square[n] * inverse
 
 
 def _towards(grid: Grid, part: float) -> Array:
@@ -196,21 +216,12 @@ def network(
     """
     nx, ny = grid.shape
     across = grid.volume_y * grid.radius
-    couette = 0.5 * speed * across * faces.mean
-    count = len(PARTS) if ruptures else 0
-    with np.errstate(divide="ignore", invalid="ignore"):
-        resistance = 12 * viscosity * grid.radius * grid.spacing_x[:, None]
-        east = faces.east * grid.volume_y / resistance
-        towards = (grid.radius + np.roll(grid.radius, -1)) / 2
-        north = faces.north * grid.volume_x[:, None] * towards / (12 * viscosity * grid.spacing_y)
-        part_east = faces.parts[1, :count] * grid.volume_y / resistance
-        for conductance, integrals in ((east, faces.east), (north, faces.north), (part_east, faces.parts[1, :count])):
-            conductance[integrals == 0] = 0
-        advected = couette * compressibility
-        upstream = np.full((nx, ny), 0.5)
-        if advected.any():
-            upstream[advected != 0] = np.maximum(0.5, 1 - east / advected)[advected != 0]
-    part_couette = 0.5 * speed * across * faces.parts[0, :count]
+    couette, upstream, east, north = (np.empty((nx, ny)) for _ in range(4))
+    part_couette, part_east = (np.empty((len(PARTS) if ruptures else 0, nx, ny)) for _ in range(2))
+    integrals = faces.mean, faces.east, faces.north, faces.parts
+    lengths = grid.spacing_x, grid.spacing_y, grid.volume_x, grid.volume_y, grid.radius
+    flows = couette, upstream, east, north, part_couette, part_east
+    weigh(*integrals, *lengths, float(speed), float(viscosity), float(compressibility), *flows)
     fixed, pressure = np.zeros((nx, ny), dtype=bool), np.zeros((nx, ny))
     supply = None
     if grid.spacing_x[-1] == 0:
@@ -254,6 +265,31 @@ def network(
         oblique=lay,
         spills=spills,
     )
+
+
+@unreordered
+def weigh(mean, over_east, over_north, parts, spacing_x, spacing_y, volume_x, volume_y, radius, speed, viscosity, compressibility, couette, upstream, east, north, part_couette, part_east):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+    """Write the flows of the faces by sliding and by pressure, of the integrals over their thickness.
+
+    Faces without a film, behind the last node, have none.
+    """
+    nx, ny = mean.shape
+    for i in range(nx):
+        for j in range(ny):
+            slides = 0.5 * speed * (volume_y[j] * radius[j])
+            resistance = 12 * viscosity * radius[j] * spacing_x[i]
+            couette[i, j] = slides * mean[i, j]
+            east[i, j] = over_east[i, j] * volume_y[j] / resistance if over_east[i, j] != 0.0 else 0.0
+            advected = couette[i, j] * compressibility
+            upstream[i, j] = max(0.5, 1 - east[i, j] / advected) if advected != 0.0 else 0.5
+            for part in range(part_east.shape[0]):
+                part_couette[part, i, j] = slides * parts[0, part, i, j]
+                through = parts[1, part, i, j]
+                part_east[part, i, j] = through * volume_y[j] / resistance if through != 0.0 else 0.0
+            north[i, j] = 0.0
+            if over_north[i, j] != 0.0:
+                towards = (radius[j] + radius[j + 1 if j + 1 < ny else 0]) / 2
+                north[i, j] = over_north[i, j] * volume_x[i] * towards / (12 * viscosity * spacing_y[j])
 
 
 def _oblique(

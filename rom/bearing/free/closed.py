@@ -19,6 +19,9 @@ CLOSEST = 1e-4
 CLOSEST_CONTACT = 2e-3
 """Distance from the smallest known separation of walls that touch, over that of first contact from it."""
 
+CLOSEST_ROUGH = 1e-2
+"""Distance from the smallest film of which flow factors are known, over that film, below which none is sought."""
+
 CLOSEST_PAD = 1e-2
 """The same for pads that carry no load, and over the film of a pad about its pivot that narrows to half."""
 
@@ -34,6 +37,12 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
     contact = film.solved.contact
     if contact is not None:
         return _beyond_contact(film, instant, force, contact)
+    known = film.solved.closest
+    if known > 0 and film.solved.room(instant.place) < CLOSEST_ROUGH * known:
+        return InputError(
+            f"load: got {np.hypot(*force[:2]):.6g} N; no film above {known:.4g} m, the thinnest of which flow factors "
+            "are known, carries it; lower the load, raise the speed or the viscosity, or add [asperities]"
+        )
     thickness, geometry, x = instant.faces.thickness, film.scene.geometry, film.solved.grid.x
     least = float(thickness.min())
     pads = isinstance(geometry, Lobes) and geometry.pivot is not None
@@ -50,10 +59,11 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
             place, remedy = "its outlet", "move the pivot towards the middle, or take more cells"
         else:
             place, remedy = "a side", "move the pivot towards the middle of the width"
-        return InputError(
-            f"geometry.pivot: got {list(geometry.pivot)}; no tilt balances the moments, the film closes at {place}; "
-            f"{remedy}"
-        )
+        given, load = f"geometry.pivot: got {list(geometry.pivot)}", film.scene.load
+        if load is not None and (load.moment_x or load.moment_y):
+            given += f" and moments of {load.moment_x:.4g} and {load.moment_y:.4g} N*m about x and y"
+            remedy = f"change load.moment_x or load.moment_y, or {remedy}"
+        return InputError(f"{given}; no tilt balances the moments, the film closes at {place}; {remedy}")
     if isinstance(geometry, Lobes) and geometry.pivot is not None:
         solution = film.solution(instant)
         above = solution.grid.areas * (solution.state.pressure + film.scene.lubricant.cavitation_pressure)
@@ -66,9 +76,14 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
             )
     if least >= CLOSEST * film.wall.unit[0]:
         return None
+    remedies = ["lower the load", "raise the speed or the viscosity"]
+    if isinstance(geometry, Lobes) and any(geometry.misalignment):
+        remedies.insert(1, "lower geometry.misalignment")
+    if film.scene.roughness is not None:
+        remedies.append("give [asperities], which may touch")
     return InputError(
-        f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; lower the load, or "
-        "raise the speed or the viscosity"
+        f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; "
+        f"{', '.join(remedies[:-1])}, or {remedies[-1]}"
     )
 
 

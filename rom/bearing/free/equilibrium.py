@@ -9,9 +9,9 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.bearing.free.closed import closed, starved
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.free.idle import idle_pads, with_wedges
+from roughfilm.rom.bearing.free.unbalanced import remedy, unbalanced
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
-from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
 from roughfilm.rom.cavitation.motion.march import held
@@ -58,8 +58,8 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     """The film at which the load of the scene and the force of the film balance.
 
     It is the end of a motion without mass by backward Euler steps, each ``GROWTH`` times as long as the one before.
-    From a start that is near enough, the first step is that of a steady film. Of two equilibria of tilting pads it is
-    the one in which fewer pads are idle.
+    From a start that is near enough, the first step is that of a steady film. If tilting pads have two equilibria, it
+    is the one in which fewer pads are idle.
 
     Parameters
     ----------
@@ -83,6 +83,8 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
             "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
         )
     force = film.load if load is None else load
+    if (reason := unbalanced(film, force)) is not None:
+        raise reason
     if start is not None and solved.room(start.place) <= 0:
         start = None
     if start is not None:
@@ -99,7 +101,8 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
                 break
             near, last = instant, min(move, 0.5 * last)
         else:
-            return _with_loaded_pads(film, near, force, tolerance)
+            if closed(film, near, force) is None:
+                return _with_loaded_pads(film, near, force, tolerance)
     if start is None:
         start = film.first(film.wall.place)
         constant = unchanging(solved.problem)
@@ -213,12 +216,11 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
     unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
     if shaft and unresisted:
         raise _leaves(force)
-    other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
-    idle = idle_pads(film, instant)
+    idle, more = idle_pads(film, instant), ""
     if idle and film.scene.lubricant.cavitation_pressure < 0:
-        other += f", or cavitation at ambient pressure, since suction acts on pad {idle[0] + 1}, which carries no load"
+        more = f"; suction acts on pad {idle[0] + 1}, which carries no load; try cavitation at ambient pressure"
     raise ConvergenceError(
-        f"load: the motion towards the equilibrium does not settle; take more cells, or {other}",
+        f"load: the motion towards the equilibrium does not settle; {remedy(film.scene)}{more}",
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
     )

@@ -71,7 +71,7 @@ class Observer:
         units["power_loss"] = units["power_sliding"]
         if self._turns:
             units["torque"] = turning
-        units |= dict.fromkeys(self._places, flow)
+        units |= dict.fromkeys(self._places, flow) | dict.fromkeys(self._pressures, "Pa")
         units |= {"volume": volume, "volume_rate": flow, "flow_imbalance": "1"}
         units["cavitated_fraction"] = "1"
         return units | {
@@ -105,8 +105,8 @@ class Observer:
         """The nodes through which lubricant enters, or leaves, by the name of the flow."""
         film, places = self.film.solved, {}
         left = np.ones(film.grid.shape, dtype=bool)
-        for number, nodes in enumerate(film.covered, 1):
-            places[f"supply_flow_{number}"] = nodes & left
+        for name, nodes in zip(self._inflows, film.covered, strict=True):
+            places[f"{name}_flow"] = nodes & left
             left &= ~nodes
         if not film.problem.shape.joined[0]:
             for name, row in (("inlet_flow", 0), ("outlet_flow", -1)):
@@ -121,6 +121,19 @@ class Observer:
                 places[name] = nodes
         return places
 
+    @cached_property
+    def _inflows(self) -> tuple[str, ...]:
+        """The names of the inflows: the gaps between lobes, then the supplies of the scene."""
+        supplies = len(self.duty.scene.supply)
+        gaps = len(self.film.solved.inflows) - supplies
+        return tuple(f"{kind}_{number + 1}" for kind, n in (("gap", gaps), ("supply", supplies)) for number in range(n))
+
+    @cached_property
+    def _pressures(self) -> dict[str, NDArray[np.bool_]]:
+        """The nodes of each supply, by the name of its pressure in the film."""
+        nodes = dict(zip(self._inflows, self.film.solved.covered, strict=True))
+        return {f"{name}_pressure": nodes[name] for name in self._inflows if name.startswith("supply")}
+
     def row(self, moving: Moving) -> Array:
         """The numbers of a step, in the order of ``units``."""
         instant, film, time = moving.instant, self.film.solved, moving.now.time
@@ -134,10 +147,12 @@ class Observer:
         flows, stored, rate, imbalance = self._flows(instant)
         radius = (self.duty.scene.turning_radius or 1.0) if film.problem.shape.polar else 1.0
         values = [time, speed * radius, *(instant.place / (scale if self.duty.lobes else 1.0)), *velocity]
-        values += [*self._least(instant.faces.thickness), *self._peak(solution)]
+        values += [*self.least(instant.faces.thickness), *self._peak(solution)]
         parts = [self._signs * part for part in (force, load, *contact)]
         values += [number for numbers in zip(*parts, strict=True) for number in numbers] + touching
         values += [friction, power, squeeze, power + squeeze, *([torque] if self._turns else []), *flows]
+        lowest = self.duty.scene.lubricant.cavitation_pressure
+        values += [float(instant.state.pressure[nodes].max()) + lowest for nodes in self._pressures.values()]
         cavitated = float(film.grid.areas[instant.kind == CAVITY].sum() / film.grid.areas.sum())
         values += [stored, rate, imbalance, cavitated, moving.step, moving.order, moving.error]
         return np.array([*values, self._residual(instant), instant.force_residual, instant.iterations], dtype=float)
@@ -182,7 +197,7 @@ class Observer:
             coarser=None,
         )
 
-    def _least(self, thickness: Array) -> tuple[float, float, float]:
+    def least(self, thickness: Array) -> tuple[float, float, float]:
         """The least film thickness, m, with its place; along x that of a parabola through three nodes."""
         grid, shape = self.film.solved.grid, self.film.solved.problem.shape
         i, j = np.unravel_index(int(np.argmin(thickness)), thickness.shape)
@@ -255,8 +270,9 @@ class Observer:
         """The flows that enter through each place, m³/s, the volume at cavitation density, its rate and the imbalance.
 
         The flow through the sides counts outwards, as that through the outlet. The imbalance is that of all flows with
-        the storage, over the largest of them and of those along the film; below the round-off of the stored volume over
-        a step it is 0, because nothing else flows at rest.
+        the storage, over the largest of them, of those along the film and of what passes its edges. It is 0 below the
+        round-off of the stored volume over a step, and where no flow exceeds the round-off of those that the pressures
+        drive, as at rest.
         """
         film, net = self.film.solved, instant.network
         areas, excess = film.grid.areas, film.problem.compression(instant.state.pressure)[0]
@@ -275,10 +291,12 @@ class Observer:
         stored = film.sides * float((areas * film.gap(instant.faces.thickness) * filled).sum())
         rate = film.sides * float((net.storage * filled - net.stored).sum())
         entering = sum(
-            flow if name.startswith(("supply", "inlet")) else -flow
+            flow if name.startswith(("gap", "supply", "inlet")) else -flow
             for name, flow in zip(self._places, flows, strict=True)
         )
         passing = film.sides * float(np.abs(net.couette * filled).sum(axis=1).max())
-        largest, missing = max([passing, abs(rate), *map(abs, flows)]), entering - rate
+        through = film.sides / 2 * float(np.abs(outside).sum())
+        largest, missing = max([passing, through, abs(rate), *map(abs, flows)]), entering - rate
         small = BALANCE_ROUNDOFF * film.sides * float(net.storage.sum())
-        return flows, stored, rate, missing / largest if abs(missing) > small else 0.0
+        driven = BALANCE_ROUNDOFF * film.sides * float(((net.east + net.north) * np.abs(instant.state.pressure)).sum())
+        return flows, stored, rate, missing / largest if abs(missing) > small and largest > driven else 0.0

@@ -6,15 +6,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import FreeFilm
-from roughfilm.rom.bearing.march.course import Duty, course_of, film_at
-from roughfilm.rom.bearing.moving.checks import MOMENTS
-from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.march.course import STEPS_PER_TABLE, Duty, course_of, film_at
+from roughfilm.rom.bearing.march.numbers import Observer
+from roughfilm.rom.bearing.march.series import Numerics, run
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
 from roughfilm.rom.cavitation.motion.coupled import Instant
-from roughfilm.rom.ladder.kind import InTime
 
 CELLS = (48, 24)
 """Cells along and across of the films."""
@@ -25,10 +24,13 @@ TIMES = 64
 RESIDUAL = 1e-9
 """Residual at which a film is solved."""
 
-JUDGED = "load over time: models are judged at the largest load"
+MARCH_CELLS, MARCH_ERROR, MARCH_PERIODS = (32, 16), 4e-3, 2
+"""Cells, error of a step, and periods of the march that finds the change, of which the last period counts."""
 
-MAX_CHANGE = 0.3
-"""Relative change of the least film up to which the linear estimate is stated as a number."""
+SHORTEST_STEP, MARCH_STEPS = 1 / 400, 4000
+"""Least of the largest step of that march over the length of the table, and the number of its steps that are too many.
+
+A rotor that whirls takes many steps in a turn."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,12 +52,8 @@ class QuasiStatic:
 
     @property
     def change(self) -> float:
-        """The relative change of the least film over time by squeeze."""
+        """The relative change of the least film over time by squeeze, to first order in the rate of change."""
         return float(self.moved.min() / self.film_min.min() - 1)
-
-    def faster(self, within: float) -> float:
-        """The factor of all rates at which the change by squeeze reaches a tolerance; infinite without a change."""
-        return within / abs(self.change) if self.change else math.inf
 
 
 def quasi_static(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIMES) -> QuasiStatic:
@@ -71,9 +69,8 @@ def quasi_static(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIM
     ConvergenceError
         If a film does not converge.
     """
-    film, table = film_at(duty, cells), duty.scene.motion.over_time
-    assert table is not None
-    time = np.linspace(duty.begin, duty.begin + (table.period or float(np.ptp(table.table.time))), times + 1)
+    film = film_at(duty, cells)
+    time = times_of(duty, times)
     instants = _equilibria(duty, film, time)
     place = np.array([instant.place for instant in instants])
     velocity = np.gradient(place, time, axis=0)
@@ -99,18 +96,62 @@ def quasi_static(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIM
     )
 
 
+def times_of(duty: Duty, count: int) -> Array:
+    """Times over a table, evenly spaced, ``count`` + 1, s."""
+    table = duty.scene.motion.over_time
+    assert table is not None
+    return np.linspace(duty.begin, duty.begin + (table.period or float(np.ptp(table.table.time))), count + 1)
+
+
+def marched_change(
+    duty: Duty, *, cells: tuple[int, int] = MARCH_CELLS, error: float = MARCH_ERROR, times: int = TIMES
+) -> float:
+    """The relative change of the least film over time from the equilibria to a march of smooth walls on a coarse grid.
+
+    The march begins in equilibrium with the first load. Of a table that repeats the second period counts.
+
+    Raises
+    ------
+    InputError
+        If no film carries the load at one of the times.
+    ConvergenceError
+        If a film does not converge, the walls touch, or the march takes too many steps.
+    """
+    scene = duty.scene.model_copy(update={"roughness": None, "asperities": None})
+    smooth, table = Duty(scene=scene), scene.motion.over_time
+    assert table is not None
+    rows = table.table.time
+    length = table.period or float(np.ptp(rows))
+    step = max(min(length / STEPS_PER_TABLE, 2 * float(np.median(np.diff(rows)))), SHORTEST_STEP * length)
+    last, count = smooth.begin + (MARCH_PERIODS if table.period else 1) * length, 0
+
+    def limited(_fraction: float, _words: str) -> None:
+        nonlocal count
+        count += 1
+        if count > MARCH_STEPS:
+            raise ConvergenceError(
+                f"a march to {last:.4g} s takes more than {MARCH_STEPS} steps", outcome=Outcome.UNFINISHED
+            )
+
+    series = run(smooth, Numerics(cells=cells, end=last, error=error, step=step), progress=limited)
+    film, time = film_at(smooth, cells), times_of(smooth, times)
+    observer = Observer(duty=smooth, film=film)
+    least = min(observer.least(one.faces.thickness)[0] for one in _equilibria(smooth, film, time))
+    return float(series["film_min"][series.time >= last - length * (1 + 1e-9)].min() / least - 1)
+
+
 def _equilibria(duty: Duty, film: FreeFilm, time: Array) -> list[Instant]:
     """The film in equilibrium with the load at each time, each from the one before."""
     instants: list[Instant] = []
     for at in time:
-        placed = _at_speed(film, abs(duty.speed(float(at))))
+        placed = at_speed(film, abs(duty.speed(float(at))))
         start = instants[-1] if instants else None
         load = duty.load(float(at))[: film.wall.place.size]
         instants.append(equilibrium(placed, start, tolerance=RESIDUAL, load=load))
     return instants
 
 
-def _at_speed(film: FreeFilm, speed: float) -> FreeFilm:
+def at_speed(film: FreeFilm, speed: float) -> FreeFilm:
     """The film at another sliding speed of the same direction, m/s (rad/s)."""
     of = {name: replace(part.problem, speed=speed) for name, part in (("whole", film.whole), ("solved", film.solved))}
     return replace(
@@ -118,71 +159,3 @@ def _at_speed(film: FreeFilm, speed: float) -> FreeFilm:
         whole=replace(film.whole, problem=of["whole"]),
         solved=replace(film.solved, problem=of["solved"]),
     )
-
-
-def in_time(scene: Bearing, within: float) -> InTime | None:
-    """What the change of a load over time means for a scene: whether squeeze matters.
-
-    Parameters
-    ----------
-    within : tolerated relative error of the least film.
-    """
-    if not _loaded_over_time(scene):
-        return None
-    duty = Duty(scene=scene)
-    try:
-        found = quasi_static(duty)
-    except (InputError, ConvergenceError) as error:
-        line = f"load over time: not every load has a film in equilibrium ({error}); take roughfilm march"
-        return InTime(lines=(line, JUDGED), entries={"quasi_static": None})
-    change, rate = found.change, found.faster(within)
-    small = abs(change) <= MAX_CHANGE
-    size = f"by up to about {100 * abs(change):.2g} %" if small else f"possibly by more than {100 * MAX_CHANGE:g} %"
-    number = "" if math.isinf(found.squeeze_number) else f" (squeeze number {found.squeeze_number:.2g})"
-    enough = abs(change) <= within
-    verdict = (
-        f"films in equilibrium with each load are enough for {100 * within:g} %"
-        if enough
-        else f"films in equilibrium with each load are not enough for {100 * within:g} %, take roughfilm march"
-    )
-    limit = (
-        "at any rate of change"
-        if math.isinf(rate)
-        else f"up to {rate:.2g} times the rates of this table"
-        if enough
-        else f"below {rate:.2g} times the rates of this table they would be"
-    )
-    return InTime(
-        lines=(
-            f"load over time: squeeze changes the least film {size}{number}",
-            f"load over time: {verdict}; {limit}",
-            JUDGED,
-        ),
-        entries={
-            "quasi_static": {
-                "enough": enough,
-                "change_of_least_film": change if abs(change) <= MAX_CHANGE else None,
-                "squeeze_number": None if math.isinf(found.squeeze_number) else found.squeeze_number,
-                "largest_rate_factor": None if math.isinf(rate) else rate,
-            }
-        },
-    )
-
-
-def _loaded_over_time(scene: Bearing) -> bool:
-    """Whether the load of a scene changes in time."""
-    table = scene.motion.over_time
-    return table is not None and bool({"load", "load_x", *MOMENTS} & table.table.columns.keys())
-
-
-def steady(scene: Bearing) -> Bearing:
-    """The scene at the time of the largest load of its table, with that load, its direction and the speed then."""
-    if not _loaded_over_time(scene):
-        return scene
-    duty, table = Duty(scene=scene), scene.motion.over_time
-    assert table is not None
-    times = np.linspace(table.table.time[0], table.table.time[-1], 20 * TIMES + 1)
-    at = float(max(times, key=lambda time: float(np.linalg.norm(duty.load(time)[: 2 if duty.lobes else 1]))))
-    radius = scene.turning_radius if not duty.lobes and scene.turning_radius is not None else 1.0
-    motion = scene.motion.model_copy(update={"speed": duty.speed(at) * radius, "over_time": None})
-    return scene.model_copy(update={"load": duty.steady_load(at), "motion": motion, "body": None})

@@ -2,7 +2,6 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lapack, lu_factor, lu_solve
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled
@@ -12,29 +11,94 @@ from roughfilm.rom.cavitation.newton import Linear
 
 @compiled
 def write_bands(known, centre, west, east, south, north, begin, bands):  # type: ignore[no-untyped-def]
-    """Write the matrix of the rows from ``begin`` on, cyclically, into LAPACK's band storage, which is zero before.
+    """Write the matrix of the rows from ``begin`` on, cyclically, into bands, which are zero before.
 
-    There are as many rows as ``bands`` has columns for. Unknowns of ``known`` nodes do not change: 1 · change = 0.
+    Entry (r, n) of the matrix is ``bands[n, 2 ny + r - n]``, as in LAPACK. There are as many rows as ``bands`` has
+    columns for. Unknowns of ``known`` nodes do not change: 1 · change = 0.
     """
     nx, ny = centre.shape
-    rows = bands.shape[1] // ny
+    rows = bands.shape[0] // ny
     for row in range(rows):
         i = (begin + row) % nx
         before, after = (i - 1) % nx, (i + 1) % nx
         for j in range(ny):
             n = row * ny + j
             if known[i, j]:
-                bands[2 * ny, n] = 1.0
+                bands[n, 2 * ny] = 1.0
                 continue
-            bands[2 * ny, n] = centre[i, j]
+            bands[n, 2 * ny] = centre[i, j]
             if row > 0 and not known[before, j]:
-                bands[3 * ny, n - ny] += west[i, j]
+                bands[n - ny, 3 * ny] += west[i, j]
             if row + 1 < rows and not known[after, j]:
-                bands[ny, n + ny] += east[i, j]
+                bands[n + ny, ny] += east[i, j]
             if j > 0 and not known[i, j - 1]:
-                bands[2 * ny + 1, n - 1] += south[i, j]
+                bands[n - 1, 2 * ny + 1] += south[i, j]
             if j + 1 < ny and not known[i, j + 1]:
-                bands[2 * ny - 1, n + 1] += north[i, j]
+                bands[n + 1, 2 * ny - 1] += north[i, j]
+
+
+@compiled
+def factorise(bands, pivots):  # type: ignore[no-untyped-def]
+    """Replace a band matrix by its factors L and U, with row exchanges; ``pivots[n]`` rows below n lies its pivot.
+
+    Returns 0, or 1 if the matrix is singular. For bands as narrow as those of films it is as fast as LAPACK, whose
+    threads would cost several times what they save.
+
+    Source: Golub and Van Loan 2013, Matrix Computations, 4.3.
+    """
+    count, width = bands.shape[0], (bands.shape[1] - 1) // 3
+    last = 0
+    for n in range(count):
+        below = min(width, count - 1 - n)
+        own = bands[n, 2 * width :]
+        largest, pivot = abs(own[0]), 0
+        for r in range(1, below + 1):
+            if abs(own[r]) > largest:
+                largest, pivot = abs(own[r]), r
+        if not largest > 0.0:
+            return 1
+        pivots[n] = pivot
+        last = max(last, min(n + pivot + width, count - 1))
+        if pivot:
+            for k in range(last - n + 1):
+                column = bands[n + k, 2 * width - k :]
+                column[0], column[pivot] = column[pivot], column[0]
+        inverse = 1 / own[0]
+        for r in range(1, below + 1):
+            own[r] *= inverse
+        lower = own[1:]
+        for k in range(1, last - n + 1):
+            factor = bands[n + k, 2 * width - k]
+            if factor != 0.0:
+                column = bands[n + k, 2 * width - k + 1 :]
+                for r in range(below):
+                    column[r] -= factor * lower[r]
+    return 0
+
+
+@compiled
+def substitute(bands, pivots, sides):  # type: ignore[no-untyped-def]
+    """Replace right-hand sides, shape (sides, count), by the solutions, from the factors of :func:`factorise`."""
+    count, width = bands.shape[0], (bands.shape[1] - 1) // 3
+    height = width
+    for n in range(count):
+        if pivots[n]:
+            height = 2 * width
+    for side in range(sides.shape[0]):
+        values = sides[side]
+        for n in range(count):
+            at = n + pivots[n]
+            values[n], values[at] = values[at], values[n]
+            if values[n] != 0.0:
+                value, lower, rest = values[n], bands[n, 2 * width + 1 :], values[n + 1 :]
+                for r in range(min(width, count - 1 - n)):
+                    rest[r] -= lower[r] * value
+        for n in range(count - 1, -1, -1):
+            values[n] /= bands[n, 2 * width]
+            above = min(n, height)
+            value, upper, rest = values[n], bands[n, 2 * width - above :], values[n - above :]
+            for r in range(above):
+                rest[r] -= upper[r] * value
 
 
 class Bands:
@@ -65,11 +129,11 @@ class Bands:
         self.first = int(cuts[0]) if cuts.size else 0
         self.closed = not cuts.size
         parts = (linear.centre, linear.west, linear.east, linear.south, linear.north)
-        bands = np.zeros((3 * ny + 1, (nx - int(self.closed)) * ny), order="F")
-        write_bands(known, *parts, self.first + int(self.closed), bands)
-        self.bands, self.pivots, fault = lapack.dgbtrf(bands, ny, ny, overwrite_ab=True)
-        if fault:
-            raise ConvergenceError("cavitation: the matrix of the film is singular", outcome=Outcome.DIVERGED)
+        self.bands = np.zeros(((nx - int(self.closed)) * ny, 3 * ny + 1))
+        self.pivots = np.empty(len(self.bands), dtype=np.int64)
+        write_bands(known, *parts, self.first + int(self.closed), self.bands)
+        if factorise(self.bands, self.pivots):
+            raise _singular()
         if self.closed:
             self._close(linear, known)
 
@@ -77,35 +141,47 @@ class Bands:
         """Eliminate all rows but the first, which closes the film."""
         nx, ny = self.shape
         own, j = known[0], np.arange(ny)
-        spread = np.zeros(((nx - 1) * ny, ny), order="F")
-        spread[j, j] = np.where(own | known[1], 0.0, linear.west[1])
-        spread[(nx - 2) * ny + j, j] += np.where(own | known[-1], 0.0, linear.east[-1])
-        self.spread = self._solve(spread)
+        self.spread = np.zeros((ny, (nx - 1) * ny))
+        self.spread[j, j] = np.where(own | known[1], 0.0, linear.west[1])
+        self.spread[j, (nx - 2) * ny + j] += np.where(own | known[-1], 0.0, linear.east[-1])
+        substitute(self.bands, self.pivots, self.spread)
         self.west = np.where(own | known[-1], 0.0, linear.west[0])
         self.east = np.where(own | known[1], 0.0, linear.east[0])
         beside = own[1:] | own[:-1]
         inner = np.diag(np.where(own, 1.0, linear.centre[0]))
         inner += np.diag(np.where(beside, 0.0, linear.south[0, 1:]), -1)
         inner += np.diag(np.where(beside, 0.0, linear.north[0, :-1]), 1)
-        after, before = self.spread[:ny], self.spread[-ny:]
-        self.inner = lu_factor(inner - self.east[:, None] * after - self.west[:, None] * before)
+        after, before = self.spread[:, :ny].T, self.spread[:, -ny:].T
+        self.inner = inner - self.east[:, None] * after - self.west[:, None] * before
 
-    def _solve(self, columns: Array) -> Array:
-        ny = self.shape[1]
-        solved, _ = lapack.dgbtrs(self.bands, ny, ny, columns, self.pivots)
-        return np.asarray(solved)
+    def _first_row(self, columns: Array) -> Array:
+        """The unknowns of the row that is eliminated last, in the last axis.
+
+        For so few unknowns LAPACK's ``gesv`` starts no threads, which ``getrs`` does; they cost more than the solution.
+        """
+        try:
+            return np.asarray(np.linalg.solve(self.inner, columns.T).T)
+        except np.linalg.LinAlgError:
+            raise _singular() from None
 
     def solve(self, sources: Array) -> Array:
         """The changes of the unknowns for right-hand sides, each of shape (nx, ny) in the last axis."""
         nx, ny = self.shape
         turned = np.roll(sources, -self.first, axis=0) if self.first else sources
-        columns = np.asfortranarray(turned.reshape(nx * ny, -1))
+        sides = np.moveaxis(turned, -1, 0).copy().reshape(-1, nx * ny)
+        rest = sides[:, ny:].copy() if self.closed else sides
+        substitute(self.bands, self.pivots, rest)
         if self.closed:
-            rest = self._solve(columns[ny:])
-            inner = columns[:ny] - self.east[:, None] * rest[:ny] - self.west[:, None] * rest[-ny:]
-            own = lu_solve(self.inner, inner)
-            columns = np.concatenate([own, rest - self.spread @ own])
-        else:
-            columns = self._solve(columns)
-        changes = columns.reshape(sources.shape)
+            own = self._first_row(sides[:, :ny] - self.east * rest[:, :ny] - self.west * rest[:, -ny:])
+            sides[:, :ny] = own
+            sides[:, ny:] = rest - np.einsum("sj,jn->sn", own, self.spread)
+        changes = np.moveaxis(sides.reshape(-1, nx, ny), 0, -1)
         return np.roll(changes, self.first, axis=0) if self.first else changes
+
+
+def _singular() -> ConvergenceError:
+    return ConvergenceError(
+        "cavitation: the matrix of the film is singular, as where the pressures of a film diverge; take a thicker "
+        "film, more cells, or another viscosity law",
+        outcome=Outcome.DIVERGED,
+    )

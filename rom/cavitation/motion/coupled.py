@@ -44,10 +44,16 @@ LEAST_FLOW = 1e-3
 """Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
 
 LEAST_PART = 1e-3
-"""Least size of the parts of the force on a coordinate over that on the whole film: pads may carry nothing."""
+"""Least size of the parts of the force on a coordinate over that on the whole film: pads may carry nothing.
+
+It is also so large that the round-off of pressures, such as that of a film at ambient pressure, balances.
+"""
 
 COLUMNS_KEPT = 5
-"""Number of steps for which the derivatives by the coordinates are kept: they change little from step to step."""
+"""Largest number of steps for which the derivatives by the coordinates are kept, as they change little.
+
+They are also taken anew once no node changes its kind any more, so that the last steps converge quadratically.
+"""
 
 CLOSED = 1e-9
 """Distance from the smallest film thickness over that at the start below which the iteration stops."""
@@ -192,7 +198,8 @@ class Trial:
         """
         rest, excess = self.rest, float(np.abs(self.inflow_excess).max(initial=0.0))
         if round_off:
-            loads = np.abs(self.drive.force) / np.abs(self.film.weights).sum(axis=0)
+            load = self.drive.force - self.drive.stiffness @ self.place
+            loads = np.abs(load) / np.abs(self.film.weights).sum(axis=0)
             unknowns = np.where(self.kind == CAVITY, 1.0, np.abs(self.pressure) + loads.max(initial=0.0))
             flows = np.abs(self.linear.centre) * unknowns + self.network.storage
             rest = np.where(np.abs(rest) > BALANCE_ROUNDOFF * flows, rest, 0.0)
@@ -215,7 +222,8 @@ class Trial:
         film = self.film
         above = np.abs(self.pressure - film.ambient)
         sizes = above.ravel() @ np.abs(film.weights) + self.contact.sizes + np.abs(self.drive.force)
-        least = LEAST_PART * film.sides * float((above * film.grid.areas).sum()) * film.reach
+        rounded = BALANCE_ROUNDOFF / FORCE_TOLERANCE * np.abs(self.pressure)
+        least = film.sides * float(((LEAST_PART * above + rounded) * film.grid.areas).sum()) * film.reach
         sizes = np.maximum(sizes, least)
         return np.where(sizes > 0, sizes, 1.0)
 
@@ -281,18 +289,23 @@ class Trial:
         net_force = (self.film.force(self.pressure) + self.pull)[free] + forces[:, 0]
         places = _solved(matrix, -net_force)
         weights = np.append(1.0, places)
-        return response.change @ weights, response.pressures @ weights, places
+        change = np.einsum("ijk,k", response.change, weights)  # without the threads of BLAS, which cost more here
+        return change, response.pressures @ weights, places
 
 
 def _solved(matrix: Array, right: Array) -> Array:
-    """The solution of a small linear system; ConvergenceError if the matrix is singular."""
+    """The solution of a small linear system; UnresistedError if the matrix is singular."""
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     except np.linalg.LinAlgError:
-        raise ConvergenceError(
+        raise UnresistedError(
             "motion: the film does not resist the motion of its wall; give a mass, or a start near the equilibrium",
             outcome=Outcome.DIVERGED,
         ) from None
+
+
+class UnresistedError(ConvergenceError):
+    """A film does not resist the motion of its wall, as where it has no pressure."""
 
 
 def full_film(film: MovingFilm, place: Array) -> Instant:
@@ -362,7 +375,7 @@ def settled(
     trial = trial_at(film, start, drive)
     free, whole, line = np.flatnonzero(drive.free), True, film.grid.shape[1] == 1
     residual = force_residual = fewest = np.inf
-    changed, unbalanced, open_by = 0, (np.inf, np.inf), CLOSED * film.room(trial.place)
+    changed, outdated, unbalanced, open_by = 0, False, (np.inf, np.inf), CLOSED * film.room(trial.place)
     for iteration in range(limit + 1):
         with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
             trial.sample()
@@ -404,8 +417,9 @@ def settled(
         if not whole and film.room(trial.place) < open_by:
             residual = np.inf
             break
-        if not whole or iteration % COLUMNS_KEPT == COLUMNS_KEPT - 1:
-            trial.columns = None
+        outdated = outdated or changed > 0
+        if not whole or (outdated and not changed) or iteration % COLUMNS_KEPT == COLUMNS_KEPT - 1:
+            trial.columns, outdated = None, False
     finite = np.isfinite(residual + force_residual)
     reason = (
         f"the residual is {residual:.1e} and the relative net force {force_residual:.1e} after {limit} steps"

@@ -4,11 +4,13 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.compiled import compiled
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.cavitation.discretise import Faces, faces_of, network, positions
 from roughfilm.rom.cavitation.grid import Grid, quarters
@@ -22,6 +24,18 @@ TINY = float(np.finfo(float).tiny)
 
 GAP_STEP = 1e-5
 """Step of the separation for the derivative of the mean gap, over the largest approach."""
+
+
+@compiled
+def displace(rest, modes, place, thickness):  # type: ignore[no-untyped-def]
+    """Write h₀ + Σ q_k n_k at all positions."""
+    for n in range(rest.size):
+        thickness[n] = rest[n]
+    for k in range(place.size):
+        mode, moved = modes[:, k], place[k]
+        for n in range(rest.size):
+            thickness[n] += mode[n] * moved
+
 
 Normal = Callable[[Array, Array], Array]
 """normal(x, y), the derivative ∂h/∂q of the film thickness by a coordinate, vectorised."""
@@ -63,7 +77,7 @@ class MovingFilm:
         places = list(positions(self.grid))
         rest = np.concatenate([np.asarray(self.problem.shape.thickness(x, y)).ravel() for x, y in places])
         modes = np.concatenate([self.modes(x, y).reshape(-1, len(self.normals)) for x, y in places])
-        return rest, modes, [x.shape for x, _ in places]
+        return rest, np.asfortranarray(modes), [x.shape for x, _ in places]
 
     def modes(self, x: Array, y: Array) -> Array:
         """∂h/∂q of each coordinate at positions, in the last axis."""
@@ -104,8 +118,9 @@ class MovingFilm:
     def faces(self, place: Array) -> Faces:
         """The film sampled on the grid at coordinates q."""
         rest, modes, shapes = self._sampled
-        counts = [math.prod(shape) for shape in shapes]
-        parts = np.split(rest + modes @ place, np.cumsum(counts)[:-1])
+        all_thickness, ends = np.empty(rest.size), accumulate(math.prod(shape) for shape in shapes)
+        displace(rest, modes, place, all_thickness)
+        parts = (all_thickness[end - math.prod(shape) : end] for end, shape in zip(ends, shapes, strict=True))
         thickness = (part.reshape(shape) for part, shape in zip(parts, shapes, strict=True))
         return faces_of(thickness, self.shape(place), self.grid)
 
@@ -118,7 +133,8 @@ class MovingFilm:
         if self.contact is None:
             return np.ones_like(thickness)
         step = GAP_STEP * (self.contact.touching - self.contact.closest)
-        return np.asarray((self.gap(thickness + step) - self.gap(thickness)) / step)
+        below, above = np.maximum(thickness - step, self.contact.closest), thickness + step
+        return np.asarray((self.gap(above) - self.gap(below)) / (above - below))
 
     def network(
         self,

@@ -1,7 +1,6 @@
 """The ``roughfilm`` command: one subcommand a file, imported when it is called."""
 
 import importlib
-import os
 import sys
 from typing import Annotated, Any
 
@@ -71,9 +70,6 @@ WITH_OPENFOAM = frozenset(
 )
 """The commands that take the option ``--openfoam``."""
 
-ONE_THREAD_OF_BLAS = frozenset({"march"})
-"""Commands that solve many small systems, which threads of the BLAS only slow down."""
-
 COMMANDS = {name: line for group in GROUPS.values() for name, line in group.items()}
 
 
@@ -90,8 +86,6 @@ class _Commands(TyperGroup):
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
         name, _, rest = super().resolve_command(ctx, args)
         sweep_machine()
-        if name in ONE_THREAD_OF_BLAS:
-            os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # read when NumPy is imported, which is later
         module = importlib.import_module(MODULES[str(name)])
         alone = typer.Typer(add_completion=False, rich_markup_mode=HELP_MODE)
         function = naming_openfoam(module.command) if name in WITH_OPENFOAM else module.command

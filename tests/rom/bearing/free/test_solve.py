@@ -88,7 +88,8 @@ def test_flows_around_corners_of_grooves_whose_pressure_jumps_are_infinite_and_s
     fed = solved(GROOVED, boundary={"inlet": {"pressure": "1 bar"}})
     assert fed["inlet_flow"].uncertainty is None
     assert fed["film_min"].uncertainty is not None
-    assert sum("the flows through both edges are infinite" in line for line in fed.warnings) == 2
+    (warning,) = fed.warnings
+    assert warning.startswith("the pressure jumps between gaps and low side (+1e+05 Pa), gaps and high side")
     assert solved(GROOVED).warnings == ()
 
 

@@ -1,5 +1,7 @@
 """Direct solutions by bands against a general sparse solver."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.sparse import lil_array
@@ -58,6 +60,18 @@ def test_bands_solve_what_a_sparse_solver_solves(ny, periodic, grooves):
     sources = np.where(known[..., None], 0.0, np.random.default_rng(2).normal(size=(9, ny, 3)))
     ours = Bands(linear, known, periodic=periodic).solve(sources)
     np.testing.assert_allclose(ours, by_sparse(linear, known, sources), rtol=1e-12, atol=1e-13)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_rows_are_exchanged_where_the_diagonal_is_small(periodic):
+    linear = replace(
+        system((9, 4), periodic=periodic, seed=3), centre=np.random.default_rng(4).normal(scale=0.3, size=(9, 4))
+    )
+    known = np.zeros((9, 4), dtype=bool)
+    sources = np.random.default_rng(5).normal(size=(9, 4, 2))
+    bands = Bands(linear, known, periodic=periodic)
+    assert bands.pivots.any()
+    np.testing.assert_allclose(bands.solve(sources), by_sparse(linear, known, sources), rtol=1e-9, atol=1e-10)
 
 
 def test_a_singular_matrix_is_an_error_in_one_line():
