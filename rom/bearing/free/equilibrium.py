@@ -216,11 +216,11 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
     unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
     if shaft and unresisted:
         raise _leaves(force)
-    idle, other = idle_pads(film, instant), remedy(film.scene)
+    idle, more = idle_pads(film, instant), ""
     if idle and film.scene.lubricant.cavitation_pressure < 0:
-        other += f", or cavitation at ambient pressure, since suction acts on pad {idle[0] + 1}, which carries no load"
+        more = f"; suction acts on pad {idle[0] + 1}, which carries no load; try cavitation at ambient pressure"
     raise ConvergenceError(
-        f"load: the motion towards the equilibrium does not settle; {other}",
+        f"load: the motion towards the equilibrium does not settle; {remedy(film.scene)}{more}",
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
     )
