@@ -58,18 +58,20 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     """The film at which the load of the scene and the force of the film balance.
 
     It is the end of a motion without mass by backward Euler steps, each ``GROWTH`` times as long as the one before.
-    From a start that is near enough, the first step is that of a steady film.
+    From a start that is near enough, the first step is that of a steady film. If tilting pads have two equilibria, it
+    is the one in which fewer pads are idle.
 
     Parameters
     ----------
-    start : a film near the equilibrium; without one the shaft starts at rest in its middle.
+    start : a film near the equilibrium; without one, or if its walls meet between the nodes of a coarser grid, the
+        shaft starts at rest in its middle.
     tolerance : residual at which a film is solved.
     load : the load on each coordinate, N; by default that of the scene.
 
     Raises
     ------
     InputError
-        If nothing supplies the film, it closes, or the shaft leaves its bore.
+        If nothing supplies the film, it closes, the shaft leaves its bore, or the film starves a supply in equilibrium.
     ConvergenceError
         If the motion does not settle.
     """
@@ -83,6 +85,8 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     force = film.load if load is None else load
     if (reason := unbalanced(film, force)) is not None:
         raise reason
+    if start is not None and solved.room(start.place) <= 0:
+        start = None
     if start is not None:
         near, last = start, MAX_MOVE
         while last > SETTLED:

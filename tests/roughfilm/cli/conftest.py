@@ -1,10 +1,11 @@
-"""Pages that commands write in a test have empty figures, since layout and drawing take most of the time of a page.
+"""Pages that commands write in a test have empty figures.
 
-Fixtures that a module shares draw theirs, and ``tests/roughfilm/pages/test_browser.py`` draws a page of every kind.
+Fixtures that a module shares draw theirs where they do not say otherwise, and
+``tests/roughfilm/pages/test_browser.py`` draws a page of every kind.
 """
 
 import pytest
-from matplotlib.backends.backend_svg import FigureCanvasSVG
+from empty_figures import empty_figures
 
 
 @pytest.fixture
@@ -15,4 +16,4 @@ def drawn():
 @pytest.fixture(autouse=True)
 def _empty_figures(request, monkeypatch):
     if "drawn" not in request.fixturenames:
-        monkeypatch.setattr(FigureCanvasSVG, "print_svg", lambda _self, file, **_: file.write("<svg></svg>"))
+        empty_figures(monkeypatch)

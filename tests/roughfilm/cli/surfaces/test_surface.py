@@ -14,20 +14,11 @@ from roughfilm.contact.parameters.definitions import AREAL, GROUPS
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.figures.spatial import relief
-from roughfilm.rom.ladder.model import Availability
 from roughfilm.words.numbers import percent
 
 PARAMETERS = ["Sa", "Sq", "Sp", "Sv", "Sz", "St", "Ssk", "Sku", "Sk", "Spk", "Svk", "Smr1", "Smr2", "Sxp"]
 PARAMETERS += ["Vmp", "Vmc", "Vvc", "Vvv", "Sdq", "Sdr", "Sal", "Str", "Std", "Spd", "Spc", "S5p", "S5v", "S10z"]
 PARAMETERS += ["Spm", "Svm"]
-
-
-@pytest.fixture(autouse=True)
-def _no_picture(request, monkeypatch):
-    """A process of its own draws the surface, which one test is enough to see."""
-    if "drawn" not in request.fixturenames:
-        monkeypatch.setattr(relief, "draw_apart", lambda *_: Availability(available=False, detail="left out"))
 
 
 @pytest.fixture
