@@ -356,6 +356,10 @@ def test_a_quantity_is_known_by_its_name_and_its_title(scene):
         wanted(scene, "lift")
 
 
+MOVING = {"free_bearing", "placed_bearing"}
+"""Kinds of laws whose rough scenes are too few for laws of roughness."""
+
+
 def test_the_table_names_rungs_quantities_and_numbers_that_exist():
     found = table()
     assert found.provenance["certainty"] == 0.95
@@ -363,7 +367,8 @@ def test_the_table_names_rungs_quantities_and_numbers_that_exist():
         kind = kind_of_laws(step.kind)
         assert {step.model, step.towards} <= {model.name for model in of_kind(ALL, kind.name)}
         assert step.measure in kind.symbols
-        if step.kind not in found.provenance["fits"]:
+        few = step.kind in MOVING and {step.model, step.towards} & {"homogenized", "mixed", "direct"}
+        if few or step.kind not in found.provenance["fits"]:  # fewer scenes than a law needs
             assert not step.left_out
             continue
         promised = set(found.promise(step.kind, step.model).laws)
