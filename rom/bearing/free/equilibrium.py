@@ -109,7 +109,44 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
         if constant != solved.problem and film.free.any():
             simple = replace(film, solved=replace(solved, problem=constant))
             start = _settling(simple, start, force, tolerance)
-    return _with_loaded_pads(film, _settling(film, start, force, tolerance), force, tolerance)
+    try:
+        end = _settling(film, start, force, tolerance)
+    except (InputError, ConvergenceError):
+        if (first := _without_suction(film, force, tolerance)) is None:
+            raise
+        end = _settling(film, first, force, tolerance, restarts=0)
+    return _with_loaded_pads(film, end, force, tolerance)
+
+
+def _without_suction(film: FreeFilm, force: Array, tolerance: float) -> Instant | None:
+    """A film at the equilibrium of tilting pads with cavities at ambient pressure, if all pads carry load there.
+
+    Idle pads may be drawn onto the shaft on the way, while at the end no film of a pad cavitates much.
+    """
+    solved, geometry, suction = film.solved, film.scene.geometry, film.solved.ambient
+    if suction <= 0 or not isinstance(geometry, Lobes) or not film.free[film.wall.turns].any():
+        return None
+    ends = solved.problem.ends
+    inlet = None if ends.inlet is None else ends.inlet - suction
+    sides = None if ends.sides is None else (ends.sides[0] - suction, ends.sides[1] - suction)
+    problem = replace(
+        solved.problem, ends=replace(ends, inlet=inlet, outlet=max(ends.outlet - suction, 0.0), sides=sides)
+    )
+    inflows = tuple(replace(one, pressure=one.pressure - suction) for one in solved.inflows)
+    scene = film.scene.model_copy(
+        update={"lubricant": film.scene.lubricant.model_copy(update={"cavitation_pressure": 0.0})}
+    )
+    at_ambient = replace(
+        film,
+        scene=scene,
+        whole=replace(film.whole, inflows=inflows, ambient=0.0),
+        solved=replace(solved, problem=problem, inflows=inflows, ambient=0.0),
+    )
+    try:
+        found = equilibrium(at_ambient, None, tolerance=tolerance, load=force)
+    except (InputError, ConvergenceError):
+        return None
+    return None if idle_pads(at_ambient, found) else film.first(found.place)
 
 
 def _with_loaded_pads(film: FreeFilm, instant: Instant, force: Array, tolerance: float) -> Instant:
@@ -166,7 +203,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
         if (reason := closed(film, instant, force)) is not None:
             idle = idle_pads(film, instant) if restarts else []
             wedges = with_wedges(film, instant, idle, tolerance=tolerance) if idle else None
-            if wedges is None:
+            if wedges is None or solved.room(wedges.place) <= solved.room(instant.place):
                 raise reason
             return _settling(film, wedges, force, tolerance, restarts - 1)
         if last and move <= SETTLED:
@@ -179,8 +216,11 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
     unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
     if shaft and unresisted:
         raise _leaves(force)
+    idle, other = idle_pads(film, instant), remedy(film.scene)
+    if idle and film.scene.lubricant.cavitation_pressure < 0:
+        other += f", or cavitation at ambient pressure, since suction acts on pad {idle[0] + 1}, which carries no load"
     raise ConvergenceError(
-        f"load: the motion towards the equilibrium does not settle; {remedy(film.scene)}",
+        f"load: the motion towards the equilibrium does not settle; {other}",
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
     )

@@ -138,6 +138,16 @@ def test_suction_does_not_keep_pads_from_the_tilts_at_which_they_carry_load():
     assert idle_pads(film, instant) == []
 
 
+def test_suction_that_no_film_meets_changes_no_equilibrium():
+    """All films are full in equilibrium; on the way to it suction draws pad 4 onto the shaft."""
+    pads = FIVE | {"pivot": 0.6, "offset": 0.6, "first": "-126 deg"}
+    ambient, suction = (
+        settled(pads, force="20 kN", cavitation=cavity, cells=(48, 8)) for cavity in ("0 Pa", "-30 kPa")
+    )
+    assert not (ambient[1].state.fill < 1).any()
+    assert suction[1].place == pytest.approx(ambient[1].place, rel=1e-6)
+
+
 def moments(along_x, along_y, place=(0.2, -0.5)):
     """The moments of a film on a misaligned shaft at a given place."""
     tilted = [f"{value!r} rad" for value in (along_x, along_y)]
