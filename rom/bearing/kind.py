@@ -41,6 +41,9 @@ COLUMNS = {
 MIN_LOAD_OVER_FRICTION = 1e-3
 """Load over friction below which errors of the load are related to the friction."""
 
+LEAST_SIZES = {"attitude_angle": 10.0, "eccentricity": 0.1}
+"""Attitude angle, degrees, and eccentricity below which their errors are related to these sizes: both may be 0."""
+
 SYMBOLS = {"compression": "ϑ", "starvation": "θ", "slenderness": "B/L"}
 
 CHOSEN: Mapping[tuple[str | None, ...], Mapping[str, type[Part]]] = {
@@ -57,8 +60,11 @@ MOVING = frozenset(name for name, shape in SHAPES.items() if issubclass(shape, M
 
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
-    """The magnitude of a quantity; for the load at least ``MIN_LOAD_OVER_FRICTION`` times the friction."""
-    size = np.abs(values[quantity])
+    """The magnitude of a quantity; for the load at least ``MIN_LOAD_OVER_FRICTION`` times the friction.
+
+    That of a place of a shaft is at least the one in ``LEAST_SIZES``.
+    """
+    size = np.maximum(np.abs(values[quantity]), LEAST_SIZES.get(quantity, 0.0))
     if quantity != "load_per_width":
         return size
     return np.maximum(size, MIN_LOAD_OVER_FRICTION * np.abs(values["friction_per_width"]))
@@ -126,6 +132,7 @@ def validation_faults(error: ValidationError, _entries: Mapping[str, Any]) -> li
 
 NUMBERS = {
     "slenderness": "B/L",
+    "piece_slenderness": "B/L of a lobe or pad",
     "convergence": "rise/h",
     "thickness_ratio": "h_max/h",
     "divergence": "widening/h",
@@ -288,6 +295,7 @@ KIND = Kind(
         "side_leakage": "side leakage",
         "friction_coefficient": "friction coefficient",
         "cavitated_fraction": "cavitated fraction",
+        "eccentricity": "eccentricity",
         "attitude_angle": "attitude angle",
         "contact_load_per_width": "load by contact",
         "film_load_per_width": "load by the film",
@@ -304,6 +312,7 @@ KIND = Kind(
     composed=composed,
     variants={"free_bearing": free, "placed_bearing": placed},
     steady=steady,
+    without_time=Bearing.without_time,
     in_time=in_time,
     lawless=squeezed,
     omitted=omitted,

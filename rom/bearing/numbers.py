@@ -7,6 +7,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.ring import Ring, Washer
 from roughfilm.rom.bearing.geometry.shapes import AnyShape
@@ -27,6 +28,7 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     Under a load the film is the expected one (:func:`roughfilm.rom.bearing.equilibrium.expected.expected_film`).
 
     slenderness : width over length, if the bearing has a width.
+    piece_slenderness : of a wall that moves freely, width over the length of a lobe or a pad.
     convergence : maximum film thickness without texture over h, minus 1.
     thickness_ratio : convergence plus 1.
     finest : length of the shortest feature along the sliding direction over the length; 1 without features.
@@ -55,6 +57,9 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     finest = _finest(scene)
     if geometry.width is not None:
         numbers["slenderness"] = geometry.width / length
+        if isinstance(geometry, MovingWall):
+            piece = geometry.radius * geometry.turn if isinstance(geometry, Lobes) else length
+            numbers["piece_slenderness"] = geometry.width / piece
     numbers["thickness_ratio"] = numbers["convergence"] + 1
     numbers["finest"] = finest / length if math.isfinite(finest) else 1.0
     if not (isinstance(geometry, Ring) and geometry.endless):

@@ -385,7 +385,7 @@ class Bearing(Scene):
             )
         if boundary.inlet != Inlet() or boundary.outlet != Outlet():
             raise ValueError(f"boundary: got an inlet or outlet, but {pieces} have none; leave it out")
-        if max(boundary.sides.low, boundary.sides.high) <= lowest and not self.supply:
+        if max(boundary.sides.low, boundary.sides.high) <= lowest and not (self.supply or self.motion.approach > 0):
             raise ValueError(
                 f"boundary.sides: got no pressure above the cavitation pressure of {lowest!r} Pa; {pieces} are "
                 "fed through their sides, raise one of the two, or give [[supply]]"
@@ -479,6 +479,15 @@ class Bearing(Scene):
             outlet=outlet.pressure - lowest,
             sides=None if self.wide else sides,
         )
+
+    def without_time(self) -> Self:
+        """The bearing without what changes in time; InputError if it has loads over time and no other."""
+        if self.motion.over_time is None:
+            return self
+        if self.load is None and self.geometry.film is None:
+            raise InputError("load: is missing; a steady film has one load; give [load], or take roughfilm march")
+        motion = self.motion.model_copy(update={"over_time": None})
+        return self.model_copy(update={"motion": motion, "body": None})
 
     @property
     def supply_patches(self) -> tuple[Patch, ...]:

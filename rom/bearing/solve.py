@@ -31,6 +31,7 @@ from roughfilm.rom.bearing.warnings import (
     pressure_warnings,
     rupture_warnings,
     scene_warnings,
+    thickness_warnings,
     window_warnings,
 )
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio
@@ -85,6 +86,7 @@ def solve(
         If the film or its load does not converge.
     """
     cells = request.resolution
+    scene.without_time()  # which refuses a scene that has loads over time alone
     if isinstance(scene.geometry, MovingWall):
         with one_time("start"):
             load_loops(scene.wide)
@@ -120,6 +122,7 @@ def solve(
     uncertainty = uncertainties(found.levels, found.of_factors, found.balance, exact=found.exact, apart=found.apart)
     warnings = [
         *grid_warnings(solution),
+        *thickness_warnings(found.scene, solution),
         *pressure_warnings(solution),
         *rupture_warnings(solution.state.pressure),
         *scene_warnings(scene, solution),

@@ -18,14 +18,33 @@ from roughfilm.rom.homogenization.table.factor_table import FactorTable
 MAX_SIDE_PRESSURE = 0.01
 """Largest pressure at a side over the largest pressure of the film that a model without sides leaves out unwarned."""
 
+MAX_THICKNESS = 0.1
+"""Largest film thickness over the length or the width of a film up to which it counts as thin."""
+
+MAX_PRESSURE = 3e9
+"""Pressure above which no wall is rigid and no oil is liquid, Pa."""
+
 ROUNDING = 1e-9
 """Pressure over the largest one below which it is zero."""
 
 
-def pressure_warnings(solution: Solution) -> list[str]:
-    """Warnings about pressures above the range of validity of a lubricant law."""
-    problem, highest = solution.problem, float(solution.state.pressure.max())
+def thickness_warnings(scene: Bearing, solution: Solution) -> list[str]:
+    """A warning if the film is not thin beside its length and width."""
+    thickest, geometry = float(solution.faces.thickness.max()), scene.geometry
+    smaller = min(geometry.length, geometry.width or geometry.length)
+    if thickest <= MAX_THICKNESS * smaller:
+        return []
     return [
+        f"film thickness: up to {thickest:.3g} m, over a tenth of the length or width of {smaller:.3g} m; the "
+        "equations of thin films do not hold, check load, film and slopes"
+    ]
+
+
+def pressure_warnings(solution: Solution) -> list[str]:
+    """Warnings about pressures above the range of validity of a lubricant law, or above any that rigid walls bear."""
+    problem, highest = solution.problem, float(solution.state.pressure.max())
+    beyond = [f"pressure: {highest:.3g} Pa; walls deform and oils turn solid above about {MAX_PRESSURE:.0e} Pa"]
+    return (beyond if highest > MAX_PRESSURE else []) + [
         f"pressure: {highest:.3g} Pa above cavitation pressure; the law {law.law} is valid up to {law.valid_to:.3g} Pa"
         for law in (problem.compressibility, problem.piezoviscosity)
         if highest > law.valid_to

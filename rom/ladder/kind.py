@@ -163,6 +163,7 @@ class Kind:
     composed : composed(scene), a line on the model of each effect of a scene, with its reason.
     excluded : the effects that no model of the kind includes, in words.
     steady : steady(scene), the scene at the time by which models are judged, such as that of its largest load.
+    without_time : without_time(scene), the scene without what changes in time, which a model solves.
     in_time : in_time(scene, within), what a motion in time means for a tolerance; None for a scene that is steady.
     omitted : omitted(scene, model, quantity), the size of an effect that a model leaves out and that the error laws do
         not count, such as one that no model of the kind includes; None if it is zero or unknown.
@@ -195,6 +196,7 @@ class Kind:
     window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     steady: Callable[[Any], Any] = as_given
+    without_time: Callable[[Any], Any] = as_given
     in_time: Callable[[Any, float], InTime | None] = unchanging
     omitted: Callable[[Any, Any, str], Omission | None] = nothing_omitted
     missing: Callable[[Any, Any], float] = nothing_missing
@@ -265,8 +267,9 @@ class Kind:
         return float(self.scale({name: one.value for name, one in result.quantities.items()}, quantity))
 
     def shared(self, *results: Result) -> tuple[str, ...]:
-        """The names of the compared quantities that all of these results have."""
-        return tuple(name for name in self.compared if all(name in result.quantities for result in results))
+        """The names of the compared quantities that all of these results have and whose size in the last is not 0."""
+        names = (name for name in self.compared if all(name in result.quantities for result in results))
+        return tuple(name for name in names if self.scale_of(results[-1], name) != 0)
 
 
 @cache

@@ -64,6 +64,10 @@ def speed_against_accuracy(
     figure, panels = new_figure((10, 4.6), 1, len(titles))
     for axes, (quantity, title) in zip(panels, titles.items(), strict=True):
         known = [point for point in chart if quantity in point.error]
+        if not known:
+            axes.set_axis_off()
+            axes.text(0.5, 0.5, f"{title}: 0, no relative error", ha="center", transform=axes.transAxes)
+            continue
         bar = floor.get(quantity, 0.0)
         drawn = partial(_drawn, least=LEAST * bar)
         for name in dict.fromkeys(point.model for point in known):
@@ -93,10 +97,8 @@ def speed_against_accuracy(
         axes.set(
             xscale="log", yscale="log", xlabel="CPU time, s", ylabel=f"error in {title}\nrelative to the reference, %"
         )
-        lowest = min((drawn(p.error[quantity]) for p in known), default=None)
-        if lowest is not None:
-            axes.set_ylim(bottom=lowest / 2)
-            whole_decades(axes.xaxis, axes.yaxis)
+        axes.set_ylim(bottom=min(drawn(p.error[quantity]) for p in known) / 2)
+        whole_decades(axes.xaxis, axes.yaxis)
     _legend_above(figure)
     return figure
 

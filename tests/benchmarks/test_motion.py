@@ -1,8 +1,12 @@
 """CPU time of a step of an orbit, and of stiffness and damping, as JSON with the machine."""
 
 import json
+import os
+import subprocess
+import sys
 import time
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -62,9 +66,22 @@ def small_motion(cells):
 
 @pytest.mark.benchmark
 def test_cost_of_motion():
-    orbits = [orbit(cells, 3, error) for cells in ((64, 16), (128, 32)) for error in (1e-2, 1e-3)]
+    orbits = [orbit(cells, 3, error) for cells in ((64, 16), (128, 32)) for error in (1e-2, 1e-3, 1e-4)]
     small = [small_motion(cells) for cells in ((64, 16), (128, 32))]
     with replacing(RESULTS, JSON) as scratch:
         scratch.write_text(json.dumps({**circumstances(), "orbits": orbits, "coefficients": small}, indent=1))
     assert max(row["cpu_ms_per_step"][0] for row in orbits if row["cells_of_half"] == [64, 16]) < 5
     assert small[-1]["cpu_ms"][0] < 20
+
+
+@pytest.mark.benchmark
+def test_threads_of_the_blas_cost_nothing():
+    """A march from Python takes the CPU time of one whose BLAS has one thread, also where the whole width is solved."""
+    program = Path(__file__).parent / "march_of_a_whole_width.py"
+    names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+    free = {name: value for name, value in os.environ.items() if name not in names}
+    times = [
+        float(subprocess.run([sys.executable, program], env=env, capture_output=True, check=True, text=True).stdout)
+        for env in (free | dict.fromkeys(names, "1"), free)
+    ]
+    assert times[1] < 1.3 * times[0]

@@ -159,7 +159,10 @@ def rotation_of(scene: Bearing, speed: float) -> float:
 
 
 def finished(
-    points: Sequence[GridPoint], rotation: float, of_walls: Callable[[str], float] = lambda _name: 0.0
+    points: Sequence[GridPoint],
+    rotation: float,
+    of_walls: Callable[[str], float] = lambda _name: 0.0,
+    balance: float = 0.0,
 ) -> tuple[dict[str, float], dict[str, float]]:
     """The numbers on the finest grid and their uncertainties.
 
@@ -170,14 +173,15 @@ def finished(
     points : the point on each grid, from fine to coarse; a single one has no uncertainty.
     rotation : rotational speed ω, rad/s.
     of_walls : the uncertainty of a number, or of an entry of the whirl, by flow factors and contact pressures.
+    balance : relative error of the load.
     """
     cells, finest = [point.cells for point in points], points[0]
     numbers = dict(finest.numbers)
     uncertainty = {
-        name: grid_uncertainty(cells, [point.numbers[name] for point in points]) + of_walls(name)
+        name: grid_uncertainty(cells, [point.numbers[name] for point in points]) + of_walls(name) + balance * abs(value)
         if len(points) > 1
         else math.inf
-        for name in numbers
+        for name, value in numbers.items()
     }
     whirls = [point.whirl for point in points if point.whirl is not None]
     if not whirls:

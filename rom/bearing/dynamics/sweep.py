@@ -14,6 +14,7 @@ from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, grid_po
 from roughfilm.rom.bearing.dynamics.wall_errors import wall_errors
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.march.rough_walls import Walls, walls_of
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
@@ -25,6 +26,9 @@ RESOLUTION, MIN_CELLS, MAX_CELLS = 128, 32, 512
 
 COARSENING = (4, 2, 1)
 """Cells along the finest grid over those of each grid, in the order in which they are solved."""
+
+CELLS_PER_LOBE = 4
+"""Smallest number of cells along a lobe of a coarser grid: with fewer its film is not resolved at all."""
 
 TOLERANCE = 1e-9
 """Residual at which a film is solved."""
@@ -188,10 +192,13 @@ def dynamic_point(
     speed, (film, instant) = abs(scene.motion.speed), solved[-1]
     rotation = rotation_of(scene, speed)
     of_walls = wall_errors(walls, *solved[max(len(solved) - 2, 0)], frequency_ratio, tolerance=TOLERANCE)
-    numbers, uncertainty = finished(points, rotation, of_walls)
+    shaft = ~film.wall.turns
+    net_force = film.solved.force(instant.state.pressure) + film.solved.contact_at(instant.place).force + film.load
+    load = math.hypot(*film.load[shaft])
+    numbers, uncertainty = finished(points, rotation, of_walls, math.hypot(*net_force[shaft]) / load)
     return DynamicPoint(
         pressure=pressure,
-        load=math.hypot(*film.load[~film.wall.turns]),
+        load=load,
         speed=speed,
         rotation=rotation,
         numbers=numbers,
@@ -210,7 +217,10 @@ def _equilibria(
     """
     coarse: tuple[FreeFilm, Instant] | None = None
     refused = 0
+    least = CELLS_PER_LOBE * scene.geometry.lobes if isinstance(scene.geometry, Lobes) else 0
     for coarsening in COARSENING:
+        if coarsening != COARSENING[-1] and resolution // coarsening < least:
+            continue
         cells = resolution // coarsening, resolution // coarsening // 2
         film = free_film(scene, cells, film=walls.film, contact=walls.contact, closest=walls.closest)
         start = started.pop(coarsening, None)

@@ -6,12 +6,12 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
-from roughfilm.rom.bearing.free.closed import closed
+from roughfilm.rom.bearing.free.closed import closed, starved
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.free.idle import idle_pads, with_wedges
+from roughfilm.rom.bearing.free.unbalanced import remedy, unbalanced
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
-from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
 from roughfilm.rom.cavitation.motion.march import held
@@ -58,18 +58,20 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     """The film at which the load of the scene and the force of the film balance.
 
     It is the end of a motion without mass by backward Euler steps, each ``GROWTH`` times as long as the one before.
-    From a start that is near enough, the first step is that of a steady film.
+    From a start that is near enough, the first step is that of a steady film. If tilting pads have two equilibria, it
+    is the one in which fewer pads are idle.
 
     Parameters
     ----------
-    start : a film near the equilibrium; without one the shaft starts at rest in its middle.
+    start : a film near the equilibrium; without one, or if its walls meet between the nodes of a coarser grid, the
+        shaft starts at rest in its middle.
     tolerance : residual at which a film is solved.
     load : the load on each coordinate, N; by default that of the scene.
 
     Raises
     ------
     InputError
-        If nothing supplies the film, it closes, or the shaft leaves its bore.
+        If nothing supplies the film, it closes, the shaft leaves its bore, or the film starves a supply in equilibrium.
     ConvergenceError
         If the motion does not settle.
     """
@@ -81,12 +83,18 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
             "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
         )
     force = film.load if load is None else load
+    if (reason := unbalanced(film, force)) is not None:
+        raise reason
+    if start is not None and solved.room(start.place) <= 0:
+        start = None
     if start is not None:
         near, last = start, MAX_MOVE
         while last > SETTLED:
             try:
                 instant = _moved(film, near, force, 0.0, tolerance)
             except (ConvergenceError, FloatingPointError):
+                break
+            if starved(film, instant) is not None:
                 break
             move = _move(film, near, instant)
             if move > last:
@@ -136,7 +144,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
         free=np.zeros(count, dtype=bool),
         storage=(0.0, 0.0) if speed or not film.free.any() else (1 / time, held(solved, start) / time),
     )
-    instant = settled(solved, start, given, tolerance=tolerance)
+    instant = settled(solved, start, given, tolerance=tolerance, starved=bool(film.free.any()))
     if not film.free.any():
         return instant
     for _ in range(MAX_STEPS):
@@ -162,6 +170,8 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
                 raise reason
             return _settling(film, wedges, force, tolerance, restarts - 1)
         if last and move <= SETTLED:
+            if (reason := starved(film, instant)) is not None:
+                raise reason
             return instant
         if shaft and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]:
             raise _leaves(force)
@@ -169,9 +179,8 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
     unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
     if shaft and unresisted:
         raise _leaves(force)
-    other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
     raise ConvergenceError(
-        f"load: the motion towards the equilibrium does not settle; take more cells, or {other}",
+        f"load: the motion towards the equilibrium does not settle; {remedy(film.scene)}",
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
     )
@@ -188,7 +197,7 @@ def _moved(film: FreeFilm, instant: Instant, force: Array, rate: float, toleranc
         free=film.free,
         storage=storage,
     )
-    return settled(solved, instant, drive, tolerance=tolerance)
+    return settled(solved, instant, drive, tolerance=tolerance, starved=True)
 
 
 def _move(film: FreeFilm, instant: Instant, following: Instant) -> float:

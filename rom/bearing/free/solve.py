@@ -11,7 +11,6 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.equilibrium.estimate import CONTACT_FILM
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
-from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
@@ -21,14 +20,20 @@ from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
 from roughfilm.rom.cavitation.motion.march import held
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import Level, Solution, coarsening
+from roughfilm.rom.cavitation.solve import FIRST_COARSENING, Level, Solution
 from roughfilm.rom.ladder.model import Progress, silent
 
 GRIDS = 4
 """Largest number of grids, the coarser ones for the uncertainty."""
 
+LEAST_GRIDS = 3
+"""Smallest number of grids: the values on two of them may agree by chance, and do not show an order."""
+
 MIN_CELLS = 24
-"""Smallest number of cells along the film of a coarser grid; one grid is coarser in any case."""
+"""Smallest number of cells along the film of the grids beyond these."""
+
+COARSEST_CELLS = 6
+"""Smallest number of cells along the film of any coarser grid."""
 
 ACROSS = 2
 """Cells along the film over those across it."""
@@ -86,10 +91,13 @@ class FreeSolution:
         moved = self.instants[1].place - instant.place
         change = max(film.solved.closing(instant.place, sign * moved) for sign in (-1.0, 1.0))
         found = {"film_min": change * float(instant.faces.thickness.min())}
-        if isinstance(film.scene.geometry, Shaft):
+        if isinstance(film.scene.geometry, Lobes):
             shift, size = (float(np.hypot(*place[:2])) for place in (moved, instant.place))
             found |= dict.fromkeys(ECCENTRICITIES, shift / float(film.wall.unit[0]))
-            found["attitude_angle"] = math.degrees(shift / size) if size else math.inf
+            turned = shift / size if size else math.inf
+            found["attitude_angle"] = math.degrees(turned)
+            if film.scene.geometry.lobes == 1 and not any(film.scene.geometry.misalignment):
+                found |= {"film_min_angle": math.degrees(turned), "film_min_x": film.scene.geometry.radius * turned}
         return found
 
 
@@ -100,10 +108,14 @@ def placed(film: FreeFilm, instant: Instant) -> Bearing:
 
 
 def sizes(cells: int) -> list[tuple[int, int]]:
-    """Cells along and across the film from the coarsest to the finest grid."""
-    along = [size for size, _ in coarsening((cells, 1), wide=True)][-GRIDS:]
-    kept = [size for size in along if size >= MIN_CELLS]
-    return [(size, max(2, round(size / ACROSS))) for size in (kept if len(kept) > 1 else along[-2:])]
+    """Cells along and across the film from the coarsest to the finest grid, which have few nodes in common."""
+    along = [cells]
+    while len(along) < GRIDS:
+        coarser = 2 * round(FIRST_COARSENING * along[-1] / 2)
+        if coarser < (COARSEST_CELLS if len(along) < LEAST_GRIDS else MIN_CELLS):
+            break
+        along.append(coarser)
+    return [(size, max(2, round(size / ACROSS))) for size in reversed(along)]
 
 
 def solve_free(

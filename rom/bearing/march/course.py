@@ -319,6 +319,7 @@ def course_of(duty: Duty, film: FreeFilm) -> Course:
         mass[:moved, :moved] = duty.body.mass / (scene.pieces or 1) * np.eye(moved)
     if duty.body.inertia is not None:  # a slope along x turns the pad about the axis along y
         mass[1:, 1:] = np.diag(duty.body.inertia[::-1][: count - 1])
+    resisted = "geometry.preload" if duty.pivoted is None else "body.inertia"
     return Course(
         free=duty.free(film),
         place=lambda time: duty.place(time, film),
@@ -327,6 +328,8 @@ def course_of(duty: Duty, film: FreeFilm) -> Course:
         mass=mass,
         stiffness=np.zeros((count, count)),
         velocity_scale=_velocity_scale(duty, film),
+        names=wall.names,
+        remedies=tuple(resisted if turns else "body.mass" for turns in wall.turns),
     )
 
 

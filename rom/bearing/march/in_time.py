@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.bearing.equilibrium.expected import expected_film
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.march.course import Duty
 from roughfilm.rom.bearing.march.on_path import PathLoads, loads_on_path
-from roughfilm.rom.bearing.march.quasi_static import TIMES, quasi_static
+from roughfilm.rom.bearing.march.quasi_static import TIMES, marched_change, quasi_static
 from roughfilm.rom.bearing.moving.checks import MOMENTS
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
@@ -17,7 +17,7 @@ from roughfilm.rom.cavitation.solve import load_loops, solve
 from roughfilm.rom.ladder.kind import InTime
 
 MAX_CHANGE = 0.3
-"""Relative change up to which the linear estimate is stated as a number."""
+"""Relative change up to which the estimate to first order is stated as a number where no march does."""
 
 APPROACH_CELLS = {True: 512, False: 48}
 """Number of cells along a side of the films with and without an approach, infinitely wide (True) and others."""
@@ -56,11 +56,15 @@ def in_time(scene: Bearing, within: float) -> InTime | None:
             found = loads_on_path(duty)
             return _stated(given, "load", found.change, found.squeeze_number, within)
         moved = quasi_static(duty)
+        try:
+            marched, stop = marched_change(duty), None
+        except ConvergenceError as error:
+            marched, stop = None, error
     except (InputError, ConvergenceError) as error:
         missing = "not every place has a film at rest" if given == PATH else "not every load has a film in equilibrium"
         line = f"{given}: {missing} ({error}); take roughfilm march"
         return InTime(lines=(line, f"{given}: {JUDGED[given]}"), entries={"quasi_static": None})
-    return _stated(given, "least film", moved.change, moved.squeeze_number, within)
+    return _stated(given, "least film", moved.change, moved.squeeze_number, within, marched, stop)
 
 
 def _given(scene: Bearing) -> str | None:
@@ -76,17 +80,36 @@ def _given(scene: Bearing) -> str | None:
     return SPEEDS if "speed" in columns and scene.load is not None else None
 
 
-def _stated(given: str, quantity: str, change: float, number: float, within: float) -> InTime:
-    """The sentences and entries on a change by squeeze, to first order in the rates.
+def _stated(
+    given: str,
+    quantity: str,
+    change: float,
+    number: float,
+    within: float,
+    marched: float | None = None,
+    stop: ConvergenceError | None = None,
+) -> InTime:
+    """The sentences and entries on a change by squeeze.
+
+    Where a march has too many steps, the estimate to first order says whether films at rest are enough.
 
     Parameters
     ----------
-    change : relative change of the quantity.
+    change : relative change of the quantity, to first order in the rates.
     number : squeeze number, infinite if it is unknown.
+    marched : relative change by a march on a coarse grid.
+    stop : the error that stopped this march.
     """
-    rate = within / abs(change) if change else math.inf
-    small, enough = abs(change) <= MAX_CHANGE, abs(change) <= within
-    size = f"by up to about {100 * abs(change):.2g} %" if small else f"possibly by more than {100 * MAX_CHANGE:g} %"
+    stated, larger = change if marched is None else marched, max(abs(change), abs(marched or 0.0))
+    rate, known = within / larger if larger else math.inf, marched is not None or abs(change) <= MAX_CHANGE
+    enough = abs(stated) <= within and (stop is None or stop.outcome is Outcome.UNFINISHED)
+    if marched is not None:
+        size = f"by {100 * marched:+.2g} %"
+    elif known:
+        size = f"by up to about {100 * abs(change):.2g} %"
+    else:
+        size = f"possibly by more than {100 * MAX_CHANGE:g} %"
+    by = "" if stop is None else f", to first order, as a march on a coarse grid stops ({stop})"
     shown = "" if math.isinf(number) else f" (squeeze number {number:.2g})"
     films = {LOADS: "films in equilibrium with each load", SPEEDS: "films in equilibrium at each speed"}.get(
         given, "films at rest at each place"
@@ -99,20 +122,21 @@ def _stated(given: str, quantity: str, change: float, number: float, within: flo
     limit = (
         "at any rate of change"
         if math.isinf(rate)
-        else f"up to {rate:.2g} times the rates of this table"
+        else f"up to about {max(rate, 1.0):.2g} times the rates of this table"
         if enough
-        else f"below {rate:.2g} times the rates of this table they would be"
+        else f"below about {min(rate, 1.0):.2g} times the rates of this table they would be"
     )
     return InTime(
         lines=(
-            f"{given}: squeeze changes the {quantity} {size}{shown}",
+            f"{given}: squeeze changes the {quantity} {size}{by}{shown}",
             f"{given}: {films} {verdict}; {limit}",
             f"{given}: {JUDGED[given]}",
         ),
         entries={
             "quasi_static": {
                 "enough": enough,
-                f"change_of_{quantity.replace(' ', '_')}": change if small else None,
+                f"change_of_{quantity.replace(' ', '_')}": stated if known else None,
+                "marched": marched is not None,
                 "squeeze_number": None if math.isinf(number) else number,
                 "largest_rate_factor": None if math.isinf(rate) else rate,
             }
@@ -136,7 +160,7 @@ def _of_approach(scene: Bearing, within: float) -> InTime:
     enough = abs(change) <= within
     size = f"by {100 * abs(change):.2g} %" if abs(change) <= MAX_CHANGE else f"to {with_it / without:.2g} times"
     rate = within / abs(change) * abs(approach) if change else math.inf
-    moved = f"up to about {rate:.2g} m/s" if enough else f"below about {rate:.2g} m/s it would be"
+    moved = f"up to about {rate:.2g} m/s" if enough else f"below about {rate:.2g} m/s it may be"
     verdict = "may be left out" if enough else "may not be left out"
     return InTime(
         lines=(

@@ -147,7 +147,7 @@ class Observer:
         flows, stored, rate, imbalance = self._flows(instant)
         radius = (self.duty.scene.turning_radius or 1.0) if film.problem.shape.polar else 1.0
         values = [time, speed * radius, *(instant.place / (scale if self.duty.lobes else 1.0)), *velocity]
-        values += [*self._least(instant.faces.thickness), *self._peak(solution)]
+        values += [*self.least(instant.faces.thickness), *self._peak(solution)]
         parts = [self._signs * part for part in (force, load, *contact)]
         values += [number for numbers in zip(*parts, strict=True) for number in numbers] + touching
         values += [friction, power, squeeze, power + squeeze, *([torque] if self._turns else []), *flows]
@@ -197,7 +197,7 @@ class Observer:
             coarser=None,
         )
 
-    def _least(self, thickness: Array) -> tuple[float, float, float]:
+    def least(self, thickness: Array) -> tuple[float, float, float]:
         """The least film thickness, m, with its place; along x that of a parabola through three nodes."""
         grid, shape = self.film.solved.grid, self.film.solved.problem.shape
         i, j = np.unravel_index(int(np.argmin(thickness)), thickness.shape)
@@ -270,8 +270,9 @@ class Observer:
         """The flows that enter through each place, m³/s, the volume at cavitation density, its rate and the imbalance.
 
         The flow through the sides counts outwards, as that through the outlet. The imbalance is that of all flows with
-        the storage, over the largest of them and of those along the film. It is 0 below the round-off of the stored
-        volume over a step, and where no flow exceeds the round-off of those that the pressures drive, as at rest.
+        the storage, over the largest of them, of those along the film and of what passes its edges. It is 0 below the
+        round-off of the stored volume over a step, and where no flow exceeds the round-off of those that the pressures
+        drive, as at rest.
         """
         film, net = self.film.solved, instant.network
         areas, excess = film.grid.areas, film.problem.compression(instant.state.pressure)[0]
@@ -294,7 +295,8 @@ class Observer:
             for name, flow in zip(self._places, flows, strict=True)
         )
         passing = film.sides * float(np.abs(net.couette * filled).sum(axis=1).max())
-        largest, missing = max([passing, abs(rate), *map(abs, flows)]), entering - rate
+        through = film.sides / 2 * float(np.abs(outside).sum())
+        largest, missing = max([passing, through, abs(rate), *map(abs, flows)]), entering - rate
         small = BALANCE_ROUNDOFF * film.sides * float(net.storage.sum())
         driven = BALANCE_ROUNDOFF * film.sides * float(((net.east + net.north) * np.abs(instant.state.pressure)).sum())
         return flows, stored, rate, missing / largest if abs(missing) > small and largest > driven else 0.0

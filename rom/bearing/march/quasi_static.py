@@ -6,9 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import FreeFilm
-from roughfilm.rom.bearing.march.course import Duty, course_of, film_at
+from roughfilm.rom.bearing.march.course import STEPS_PER_TABLE, Duty, course_of, film_at
+from roughfilm.rom.bearing.march.numbers import Observer
+from roughfilm.rom.bearing.march.series import Numerics, run
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
 from roughfilm.rom.cavitation.motion.coupled import Instant
 
@@ -20,6 +23,14 @@ TIMES = 64
 
 RESIDUAL = 1e-9
 """Residual at which a film is solved."""
+
+MARCH_CELLS, MARCH_ERROR, MARCH_PERIODS = (32, 16), 4e-3, 2
+"""Cells, error of a step, and periods of the march that finds the change, of which the last period counts."""
+
+SHORTEST_STEP, MARCH_STEPS = 1 / 400, 4000
+"""Least of the largest step of that march over the length of the table, and the number of its steps that are too many.
+
+A rotor that whirls takes many steps in a turn."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +52,7 @@ class QuasiStatic:
 
     @property
     def change(self) -> float:
-        """The relative change of the least film over time by squeeze."""
+        """The relative change of the least film over time by squeeze, to first order in the rate of change."""
         return float(self.moved.min() / self.film_min.min() - 1)
 
 
@@ -90,6 +101,43 @@ def times_of(duty: Duty, count: int) -> Array:
     table = duty.scene.motion.over_time
     assert table is not None
     return np.linspace(duty.begin, duty.begin + (table.period or float(np.ptp(table.table.time))), count + 1)
+
+
+def marched_change(
+    duty: Duty, *, cells: tuple[int, int] = MARCH_CELLS, error: float = MARCH_ERROR, times: int = TIMES
+) -> float:
+    """The relative change of the least film over time from the equilibria to a march of smooth walls on a coarse grid.
+
+    The march begins in equilibrium with the first load. Of a table that repeats the second period counts.
+
+    Raises
+    ------
+    InputError
+        If no film carries the load at one of the times.
+    ConvergenceError
+        If a film does not converge, the walls touch, or the march takes too many steps.
+    """
+    scene = duty.scene.model_copy(update={"roughness": None, "asperities": None})
+    smooth, table = Duty(scene=scene), scene.motion.over_time
+    assert table is not None
+    rows = table.table.time
+    length = table.period or float(np.ptp(rows))
+    step = max(min(length / STEPS_PER_TABLE, 2 * float(np.median(np.diff(rows)))), SHORTEST_STEP * length)
+    last, count = smooth.begin + (MARCH_PERIODS if table.period else 1) * length, 0
+
+    def limited(_fraction: float, _words: str) -> None:
+        nonlocal count
+        count += 1
+        if count > MARCH_STEPS:
+            raise ConvergenceError(
+                f"a march to {last:.4g} s takes more than {MARCH_STEPS} steps", outcome=Outcome.UNFINISHED
+            )
+
+    series = run(smooth, Numerics(cells=cells, end=last, error=error, step=step), progress=limited)
+    film, time = film_at(smooth, cells), times_of(smooth, times)
+    observer = Observer(duty=smooth, film=film)
+    least = min(observer.least(one.faces.thickness)[0] for one in _equilibria(smooth, film, time))
+    return float(series["film_min"][series.time >= last - length * (1 + 1e-9)].min() / least - 1)
 
 
 def _equilibria(duty: Duty, film: FreeFilm, time: Array) -> list[Instant]:

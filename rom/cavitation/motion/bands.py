@@ -180,4 +180,8 @@ class Bands:
 
 
 def _singular() -> ConvergenceError:
-    return ConvergenceError("cavitation: the matrix of the film is singular", outcome=Outcome.DIVERGED)
+    return ConvergenceError(
+        "cavitation: the matrix of the film is singular, as where the pressures of a film diverge; take a thicker "
+        "film, more cells, or another viscosity law",
+        outcome=Outcome.DIVERGED,
+    )

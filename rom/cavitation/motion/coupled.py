@@ -44,7 +44,10 @@ LEAST_FLOW = 1e-3
 """Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
 
 LEAST_PART = 1e-3
-"""Least size of the parts of the force on a coordinate over that on the whole film: pads may carry nothing."""
+"""Least size of the parts of the force on a coordinate over that on the whole film: pads may carry nothing.
+
+It is also so large that the round-off of pressures, such as that of a film at ambient pressure, balances.
+"""
 
 COLUMNS_KEPT = 5
 """Largest number of steps for which the derivatives by the coordinates are kept, as they change little.
@@ -195,7 +198,8 @@ class Trial:
         """
         rest, excess = self.rest, float(np.abs(self.inflow_excess).max(initial=0.0))
         if round_off:
-            loads = np.abs(self.drive.force) / np.abs(self.film.weights).sum(axis=0)
+            load = self.drive.force - self.drive.stiffness @ self.place
+            loads = np.abs(load) / np.abs(self.film.weights).sum(axis=0)
             unknowns = np.where(self.kind == CAVITY, 1.0, np.abs(self.pressure) + loads.max(initial=0.0))
             flows = np.abs(self.linear.centre) * unknowns + self.network.storage
             rest = np.where(np.abs(rest) > BALANCE_ROUNDOFF * flows, rest, 0.0)
@@ -218,7 +222,8 @@ class Trial:
         film = self.film
         above = np.abs(self.pressure - film.ambient)
         sizes = above.ravel() @ np.abs(film.weights) + self.contact.sizes + np.abs(self.drive.force)
-        least = LEAST_PART * film.sides * float((above * film.grid.areas).sum()) * film.reach
+        rounded = BALANCE_ROUNDOFF / FORCE_TOLERANCE * np.abs(self.pressure)
+        least = film.sides * float(((LEAST_PART * above + rounded) * film.grid.areas).sum()) * film.reach
         sizes = np.maximum(sizes, least)
         return np.where(sizes > 0, sizes, 1.0)
 
@@ -289,14 +294,18 @@ class Trial:
 
 
 def _solved(matrix: Array, right: Array) -> Array:
-    """The solution of a small linear system; ConvergenceError if the matrix is singular."""
+    """The solution of a small linear system; UnresistedError if the matrix is singular."""
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
     except np.linalg.LinAlgError:
-        raise ConvergenceError(
+        raise UnresistedError(
             "motion: the film does not resist the motion of its wall; give a mass, or a start near the equilibrium",
             outcome=Outcome.DIVERGED,
         ) from None
+
+
+class UnresistedError(ConvergenceError):
+    """A film does not resist the motion of its wall, as where it has no pressure."""
 
 
 def full_film(film: MovingFilm, place: Array) -> Instant:
@@ -333,7 +342,15 @@ def trial_at(film: MovingFilm, instant: Instant, drive: Drive) -> Trial:
 
 
 @finite_arithmetic("motion")
-def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float, limit: int = ITERATIONS) -> Instant:
+def settled(
+    film: MovingFilm,
+    start: Instant,
+    drive: Drive,
+    *,
+    tolerance: float,
+    limit: int = ITERATIONS,
+    starved: bool = False,
+) -> Instant:
     """The instant at which inflow equals outflow at every node and behind every restrictor, and all forces balance.
 
     The unknowns are the pressure or the filling fraction u of every node, and z, the free coordinates and the pressures
@@ -348,11 +365,12 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
     tolerance : residual at which the iteration stops, and sum of all balances over the flow through the film; it is
         larger where the round-off of the volumes over a short time step exceeds it.
     limit : largest number of steps.
+    starved : whether pressures behind restrictors may fall below that of cavitation, as on the way to an equilibrium.
 
     Raises
     ------
     ConvergenceError
-        If the iteration does not converge.
+        If the iteration does not converge, or a film takes in more than a restrictor passes at cavitation pressure.
     """
     trial = trial_at(film, start, drive)
     free, whole, line = np.flatnonzero(drive.free), True, film.grid.shape[1] == 1
@@ -375,7 +393,8 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         if not np.isfinite(residual + force_residual):
             break
         if max(residual, imbalance) <= least and force_residual <= FORCE_TOLERANCE and whole:
-            _check_restrictors(trial)
+            if not starved:
+                _check_restrictors(trial)
             return Instant(
                 place=trial.place,
                 pressures=trial.pressures,

@@ -1,7 +1,7 @@
 """Films in time: the wall moves as given, or as the forces on it make it move."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
-from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
+from roughfilm.rom.cavitation.balance import FILM
+from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, UnresistedError, settled
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 
@@ -22,8 +23,14 @@ EMPTY = -1e-9
 MIN_STEP = 1e-9
 """Smallest time step over the largest one, below which the march stops."""
 
+SHORT_STEP, MAX_SHORT_STEPS = 1e-5, 2000
+"""Time step over the largest one, and the number of such steps in a row, beyond which a march would hardly end."""
+
 FIRST_STEP = 1e-3
 """First time step over the largest one: it has first order, since no earlier film is known."""
+
+TILTED = 0.1
+"""Least film thickness over the mean one below which a pad that touches is tilted."""
 
 ROUNDOFF = 1e-9
 """Difference of times, over the time step, that counts as none."""
@@ -42,6 +49,8 @@ class Course:
     mass : mass matrix, kg (kg m²); coordinates without mass move so that their forces balance.
     stiffness : matrix S of forces -S q of springs, N/m.
     velocity_scale : size of the velocities, m/s, to which the error of a time step is related, for each coordinate.
+    names : name of each coordinate, for messages.
+    remedies : what to give so that each coordinate resists its motion without a film, such as "body.inertia".
     """
 
     free: NDArray[np.bool_]
@@ -51,6 +60,8 @@ class Course:
     mass: Array
     stiffness: Array
     velocity_scale: Array
+    names: tuple[str, ...] = ()
+    remedies: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,14 +156,15 @@ def march(
         If the end or the largest step is not finite or not ahead, the error is not positive, or the course gives a
         speed below 0 or a number that is not finite.
     ConvergenceError
-        If a film becomes thinner than ``closest``, or a step does not converge however short it is.
+        If a film becomes thinner than ``closest``, a step does not converge however short it is, or more than
+        ``MAX_SHORT_STEPS`` steps in a row are short, as where a film no longer resists the motion of its wall.
 
     Source: Hairer, Nørsett and Wanner 1993, Solving Ordinary Differential Equations I, III.5, for the formula;
     Elrod 1981, doi:10.1115/1.3251669, for the film.
     """
     _check_times(start.now.time, end, largest_step, error)
     moving = start
-    size = start.following or (largest_step if error is None else FIRST_STEP * largest_step)
+    size, short = start.following or (largest_step if error is None else FIRST_STEP * largest_step), 0
     while moving.now.time < end - ROUNDOFF * min(largest_step, end - start.now.time):
         left = end - moving.now.time
         size = min(size, largest_step)
@@ -163,22 +175,27 @@ def march(
         order = 2 if len(moving.past) > 1 else 1
         following = _attempt(film, course, moving, size, order=order, tolerance=tolerance, longest=largest_step)
         ratio = MIN_GROWTH
-        if following is not None:
+        if isinstance(following, Moving):
             estimate = following.error
             ratio = MAX_GROWTH
             if error is not None and estimate > 0:
                 power = 1.0 / (following.order + 1)
                 ratio = min(max(SAFETY * (error / estimate) ** power, MIN_GROWTH), MAX_GROWTH)
-        if following is None or (error is not None and following.error > error and size > MIN_STEP * largest_step):
+        if not isinstance(following, Moving) or (
+            error is not None and following.error > error and size > MIN_STEP * largest_step
+        ):
             size *= min(ratio, 0.7)
             if size < MIN_STEP * largest_step:
-                raise _stopped(moving, closest)
+                raise _stopped(film, course, moving, closest, following)
             continue
         size *= ratio
         moving = replace(following, following=size)
         least = float(moving.instant.faces.thickness.min())
         if least < closest:
-            raise _stopped(moving, closest)
+            raise _stopped(film, course, moving, closest, None)
+        short = short + 1 if moving.step < SHORT_STEP * largest_step else 0
+        if short > MAX_SHORT_STEPS:
+            raise _too_fast(course, moving)
         yield moving
 
 
@@ -204,20 +221,77 @@ def _check_course(time: float, speed: float, place: Array, force: Array) -> None
             raise InputError(f"motion.{name}: got {values.tolist()} at the time {time:.6g} s; give finite numbers")
 
 
-def _stopped(moving: Moving, closest: float) -> ConvergenceError:
-    least = float(moving.instant.faces.thickness.min())
-    touches = least < 2 * closest
-    reason = (
-        f"the film is {least:.3g} m thick, and the walls touch; lower the load, or raise the viscosity or the speed"
-        if touches
-        else "no time step converges; take more cells, or give a mass or inertia to coordinates without one, whose "
-        "motion a film without pressure does not resist"
+def _names(course: Course) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The name of each coordinate, and what makes it resist its motion."""
+    count = course.free.size
+    return (
+        course.names or tuple(f"coordinate {number + 1}" for number in range(count)),
+        course.remedies or ("mass",) * count,
     )
+
+
+def _too_fast(course: Course, moving: Moving) -> ConvergenceError:
+    """The error of a march whose steps stay short."""
+    names, remedies = _names(course)
+    speeds = np.where(course.free, np.abs(moving.now.velocity) / course.velocity_scale, 0.0)
+    fastest = int(np.argmax(speeds))
     return ConvergenceError(
-        f"motion: at the time {moving.now.time:.6g} s {reason}",
+        f"motion: at the time {moving.now.time:.6g} s more than {MAX_SHORT_STEPS} steps in a row are shorter than "
+        f"{SHORT_STEP:g} of the largest, since the film hardly resists {names[fastest]}, which moves fast; give a "
+        f"larger {remedies[fastest]}, or a larger error",
         outcome=Outcome.STALLED,
         iterations=moving.instant.iterations,
     )
+
+
+def _stopped(
+    film: MovingFilm, course: Course, moving: Moving, closest: float, cause: Moving | ConvergenceError | None
+) -> ConvergenceError:
+    """The error of a march that cannot go on, with the time, the coordinate that moves, and the remedy.
+
+    Parameters
+    ----------
+    cause : the error of the last step that did not converge.
+    """
+    instant, (names, remedies) = moving.instant, _names(course)
+    thickness = instant.faces.thickness
+    least, at = float(thickness.min()), np.unravel_index(int(np.argmin(thickness)), thickness.shape)
+    pressed = (instant.kind == FILM) & (instant.state.pressure > 0)
+    resists = np.diag(course.mass) + np.abs(np.diag(course.stiffness)) > 0
+    loose = np.flatnonzero(course.free & ~resists)
+    if least < 2 * closest:
+        closing = -film.at_nodes[at] * moving.now.velocity
+        reason = (
+            f"the film is {least:.3g} m thick, and the walls touch, mainly by the motion of "
+            f"{names[int(np.argmax(closing))]}; lower the load, or raise the viscosity or the speed"
+        )
+        if film.turns is not None and film.turns.any() and least < TILTED * float(thickness.mean()):
+            reason += ", or move the pivot or change the moments, which tilt the pad"
+    elif loose.size and (isinstance(cause, UnresistedError) or not pressed.any()):
+        remedy = " and ".join(dict.fromkeys(remedies[number] for number in loose))
+        reason = (
+            f"the film loses its pressure and does not resist {_listed([names[number] for number in loose])}; give "
+            f"{remedy}, a start near the equilibrium, or a cavitation pressure further below ambient pressure"
+        )
+    else:
+        reason = (
+            f"no step down to {MIN_STEP:g} of the largest converges, with a film of {least:.3g} m; take more cells, or "
+            "a smaller error"
+        )
+        if loose.size:
+            given = dict.fromkeys(remedies[number] for number in loose)
+            reason += f", or give {' and '.join(given)}"
+    return ConvergenceError(
+        f"motion: at the time {moving.now.time:.6g} s {reason}",
+        outcome=Outcome.STALLED,
+        iterations=instant.iterations,
+    )
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Names in a row, with "or" before the last."""
+    *before, last = names
+    return f"{', '.join(before)} or {last}" if before else last
 
 
 def _attempt(
@@ -229,8 +303,8 @@ def _attempt(
     order: int,
     tolerance: float,
     longest: float,
-) -> Moving | None:
-    """The film after a time step; None if the step does not converge."""
+) -> Moving | ConvergenceError | None:
+    """The film after a time step; the error if it does not converge, None if given walls touch before it."""
     time = moving.now.time + size
     rate, (place, velocity, volume) = differences(moving.past, size, order)
     speed, given, force = course.speed(time), course.place(time), course.force(time)
@@ -249,8 +323,8 @@ def _attempt(
     start = replace(moving.instant, place=guess)
     try:
         instant = settled(film, start, drive, tolerance=tolerance)
-    except ConvergenceError:
-        return None
+    except ConvergenceError as error:
+        return error
     if order > 1 and instant.state.fill.min() < EMPTY:
         return _attempt(film, course, moving, size, order=1, tolerance=tolerance, longest=longest)
     now = Known(

@@ -24,7 +24,7 @@ from roughfilm.words.scales import Scale, scales_of
 MAX_COLUMNS = 4
 """Largest number of models whose differences stand beside each other."""
 
-EVEN_DENSITY = 0.1
+EVEN_DENSITY = 0.12
 """Range of densities below which a film is drawn as whole."""
 
 STYLES = {

@@ -454,6 +454,17 @@ def test_film_and_asperities_of_a_pad_share_its_load() -> None:
     assert values["films"][values["friction"].argmin()] == pytest.approx(3e-6)
 
 
+def test_a_shaft_lifts_off_at_the_same_speed_in_plain_halves_and_in_a_lemon_bore() -> None:
+    values = values_of("mixed_lubrication/start_of_a_journal")
+    plain, lemon = (values["curves"][name] for name in ("plain halves", "lemon bore"))
+    assert plain.lift_off.speed == pytest.approx(0.25, abs=0.005)
+    assert lemon.lift_off.speed == pytest.approx(plain.lift_off.speed, rel=1e-3)
+    assert plain.points[0].contact_share > 0.9
+    assert plain.points[-1].contact_share == 0
+    friction = [curve.points[-1].friction_coefficient for curve in (plain, lemon)]
+    assert friction[1] / friction[0] == pytest.approx(1.69, abs=0.01)
+
+
 @pytest.mark.slow
 def test_the_lift_off_speed_is_proportional_to_the_load() -> None:
     values = values_of("mixed_lubrication/long_stribeck_washer")

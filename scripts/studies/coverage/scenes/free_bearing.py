@@ -37,8 +37,8 @@ def draw(rng: Generator) -> Entries:
     direction within 60° of downwards; an eighth is misaligned, and a third of the full bores has a groove or a hole. Of
     the pads 43 % are sectors; a third tilts about a line, a quarter has a crown, a tenth a moment, and the film is
     5·10⁻⁵ to 10⁻³ of the length. The lubricant is that of the kind ``bearing``; a quarter cavitates at ambient
-    pressure, as all tilting pads of shafts under a load do. Of those without
-    supplies 16 of 100 have short ridges along or across, and 28 a rough surface whose asperities touch.
+    pressure, as all tilting pads of shafts under a load do. Of those without supplies 16 of 100 have short ridges along
+    or across, and 6 a rough surface whose asperities touch (28 at a given place).
 
     Raises
     ------
@@ -61,7 +61,7 @@ def bearing(rng: Generator, *, loaded: bool) -> Entries:
     limit = min(MAX_PRESSURE, MAX_COMPRESSION * _number(oil["compressibility"].get("bulk_modulus", "inf Pa")))
     if pressure > limit:
         raise InputError(f"mean pressure: got {pressure:.2g} Pa, at most {limit:.2g} Pa; draw again")
-    return {**entries, **({} if "supply" in entries else _walls(rng, film, side))}
+    return {**entries, **({} if "supply" in entries else _walls(rng, film, side, loaded=loaded))}
 
 
 def _number(text: str) -> float:
@@ -180,9 +180,10 @@ def _pad(rng: Generator, entries: Entries, sheared: float, *, loaded: bool) -> t
     return film, side, pressure
 
 
-def _walls(rng: Generator, film: float, side: float) -> Entries:
+def _walls(rng: Generator, film: float, side: float, *, loaded: bool) -> Entries:
     """Short ridges along or across, or a rough surface whose asperities touch; or smooth walls."""
-    kind = str(rng.choice(["smooth", "ridges", "surface"], p=[0.56, 0.16, 0.28]))
+    smooth = "smooth" if loaded else "surface"
+    kind = str(rng.choice(["smooth", "ridges", smooth, "surface"], p=[0.56, 0.16, 0.22, 0.06]))
     if kind == "ridges":
         ridges = {
             "amplitude": length(film * between(rng, 0.03, 0.8)),

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+import roughfilm as rf
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 
@@ -140,3 +141,11 @@ def test_every_fault_of_a_file_is_one_line(tmp_path, text, words):
     with pytest.raises(InputError, match=words) as error:
         scene({"file": str(path)})
     assert "\n" not in str(error.value)
+
+
+def test_a_steady_film_carries_the_load_of_the_scene_and_no_load_of_its_table():
+    table = {"time": ["0 s", "1 s"], "load": ["1 kN", "2 kN"]}
+    fed = {"lobes": 2, "arc": "150 deg"}
+    assert rf.solve(scene(table, SHAFT | fed, load={"force": "500 N"}))["load"].value == pytest.approx(500, rel=1e-6)
+    with pytest.raises(InputError, match=r"^load: is missing; .* \[load\], or take roughfilm march$"):
+        rf.solve(scene(table, SHAFT | fed))
