@@ -6,10 +6,13 @@ that follow. A damaged file can crash or hang the HDF5 library.
 
 import hashlib
 import io
-from collections.abc import Callable, Iterator
+import json
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
@@ -114,6 +117,18 @@ def open_checked(path: Path, mark: bytes, schema: int, remedy: str) -> Iterator[
         if (found := content.one("@schema", Numbers(kind=int))) != schema:
             raise InputError(f"{path}: has schema {found}; this version reads {schema}, {remedy}")
         yield content
+
+
+def write_inputs(file: "h5py.File", inputs: Inputs, schema: int) -> None:
+    """Write the schema of a file and the inputs to which it belongs, by which ``open_if_of`` opens it again."""
+    file.attrs["schema"] = schema
+    file.attrs["digest"] = inputs.digest
+    file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+
+
+def write_column(file: "h5py.File", name: str, column: Sequence[float], unit: str) -> None:
+    """Write a column of numbers with its unit."""
+    file.create_dataset(name, data=np.array(column, dtype=float)).attrs["unit"] = unit
 
 
 @contextmanager

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import h5py
-import numpy as np
 
-from roughfilm.contact.foundation.checked_hdf5 import open_if_of, write_checked
+from roughfilm.contact.foundation.checked_hdf5 import open_if_of, write_checked, write_column, write_inputs
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.reading.hdf5_content import Numbers
@@ -70,20 +69,14 @@ def save_points(path: Path, inputs: Inputs, points: Sequence[DynamicPoint]) -> N
     ordered = sorted(points, key=lambda point: (point.pressure, point.speed))
 
     def fill(file: h5py.File) -> None:
-        file.attrs["schema"] = SCHEMA
-        file.attrs["digest"] = inputs.digest
-        file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+        write_inputs(file, inputs, SCHEMA)
         for name, unit in OPERATION.items():
-            _write(file, f"points/{name}", [getattr(point, name) for point in ordered], unit)
+            write_column(file, f"points/{name}", [getattr(point, name) for point in ordered], unit)
         for name in ordered[0].numbers if ordered else ():
-            _write(file, f"numbers/{name}", [point.numbers[name] for point in ordered], UNITS[name])
-            _write(file, f"uncertainty/{name}", [point.uncertainty[name] for point in ordered], UNITS[name])
+            write_column(file, f"numbers/{name}", [point.numbers[name] for point in ordered], UNITS[name])
+            write_column(file, f"uncertainty/{name}", [point.uncertainty[name] for point in ordered], UNITS[name])
 
     write_checked(path, MARK, fill)
-
-
-def _write(file: h5py.File, name: str, column: Sequence[float], unit: str) -> None:
-    file.create_dataset(name, data=np.array(column, dtype=float)).attrs["unit"] = unit
 
 
 def known_points(path: Path, inputs: Inputs) -> tuple[DynamicPoint, ...]:

@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.checked_hdf5 import has_mark
+from roughfilm.contact.foundation.checked_hdf5 import has_mark, write_inputs
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.growing_hdf5 import Writer, grow, read
@@ -103,9 +103,7 @@ def keeper(path: Path, inputs: Inputs, march: str, known: int) -> Callable[[Chun
 
         def fill(writer: Writer) -> None:
             if "marches" not in writer.file:
-                writer.file.attrs["schema"] = SCHEMA
-                writer.file.attrs["digest"] = inputs.digest
-                writer.file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+                write_inputs(writer.file, inputs, SCHEMA)
             writer.write(f"{name}/rows", chunk.rows, "SI")
             for key in STATE:
                 writer.write(f"{name}/state/{key}", np.asarray(chunk.state[key], dtype=np.float64), "SI")

@@ -1,6 +1,5 @@
 """Files of Stribeck curves: HDF5 with a digest of the input, and CSV."""
 
-import json
 from collections.abc import Sequence
 from dataclasses import fields
 from pathlib import Path
@@ -8,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from roughfilm.contact.foundation.checked_hdf5 import open_if_of, write_checked
+from roughfilm.contact.foundation.checked_hdf5 import open_if_of, write_checked, write_column, write_inputs
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.reading.hdf5_content import Numbers
@@ -59,26 +58,24 @@ def save_points(
     ordered = sorted(points, key=lambda point: (point.pressure, point.speed))
 
     def fill(file: h5py.File) -> None:
-        file.attrs["schema"] = SCHEMA
-        file.attrs["digest"] = inputs.digest
-        file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+        write_inputs(file, inputs, SCHEMA)
         for name in NUMBERS:
-            _write(file, f"points/{name}", [getattr(point, name) for point in ordered], UNITS.get(name, "1"))
+            write_column(file, f"points/{name}", [getattr(point, name) for point in ordered], UNITS.get(name, "1"))
         for name in sorted({name for point in ordered for name in point.uncertainty}):
             column = [point.uncertainty.get(name, np.nan) for point in ordered]
-            _write(file, f"uncertainty/{name}", column, UNITS.get(name, "1"))
+            write_column(file, f"uncertainty/{name}", column, UNITS.get(name, "1"))
         for group in SCATTER:
             for name in _scattered(ordered):
-                _write(
+                write_column(
                     file,
                     f"{group}/{name}",
                     [_of_windows(point, group, name) for point in ordered],
                     UNITS.get(name, "1"),
                 )
         if curves:
-            _write(file, "lift_off/pressure", [curve.pressure for curve in curves], "Pa")
-            _write(file, "lift_off/speed", [curve.lift_off.speed for curve in curves], "m/s")
-            _write(file, "lift_off/uncertainty", [curve.lift_off.uncertainty for curve in curves], "m/s")
+            write_column(file, "lift_off/pressure", [curve.pressure for curve in curves], "Pa")
+            write_column(file, "lift_off/speed", [curve.lift_off.speed for curve in curves], "m/s")
+            write_column(file, "lift_off/uncertainty", [curve.lift_off.uncertainty for curve in curves], "m/s")
 
     write_checked(path, MARK, fill)
 
@@ -140,7 +137,3 @@ def _of_windows(point: StribeckPoint, group: str, name: str) -> float:
     if group == "scatter":
         return float(point.scatter.get(name, np.nan))
     return float(point.window_interval.get(name, (np.nan, np.nan))[group == "window_high"])
-
-
-def _write(file: h5py.File, name: str, values: Sequence[float], unit: str) -> None:
-    file.create_dataset(name, data=np.array(values, dtype=np.float64)).attrs["unit"] = unit

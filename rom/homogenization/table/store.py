@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, open_if_of, write_checked
+from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, open_if_of, write_checked, write_inputs
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.reading.hdf5_content import Content, Json, Numbers
@@ -107,9 +107,7 @@ def save_table(path: Path, inputs: Inputs, table: FactorTable, making: Making | 
     points = table.points
 
     def fill(file: h5py.File) -> None:
-        file.attrs["schema"] = SCHEMA
-        file.attrs["digest"] = inputs.digest
-        file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+        write_inputs(file, inputs, SCHEMA)
         file.attrs["spacing"] = inputs.spacing
         file.attrs["peak"] = table.peak
         file.attrs["rms"] = table.rms

@@ -1,6 +1,5 @@
 """HDF5 files of leakage over the load and of sealing loads, with a digest of their inputs."""
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
@@ -9,7 +8,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, open_if_of, write_checked
+from roughfilm.contact.foundation.checked_hdf5 import has_mark, open_checked, open_if_of, write_checked, write_inputs
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.reading.hdf5_content import Content, Numbers, Text
@@ -92,9 +91,7 @@ def save_series(path: Path, inputs: Inputs, series: LeakageSeries, surface: str 
     rows = [series.rows[load] for load in sorted(series.rows)]
 
     def fill(file: h5py.File) -> None:
-        file.attrs["schema"] = SCHEMA
-        file.attrs["digest"] = inputs.digest
-        file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
+        write_inputs(file, inputs, SCHEMA)
         if surface:
             file.attrs["surface"] = surface
         for name in NUMBERS:
