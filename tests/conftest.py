@@ -15,6 +15,9 @@ from roughfilm.rom.ladder.scene import load_scene
 
 POCKET = SCENES / "pocket.toml"
 
+LONG_FILE = "test_transcripts.py"
+"""Would be among the last files, with nothing left for the other process; its tests come first."""
+
 for name in ("FORCE_COLOR", "NO_COLOR", "PY_COLORS", "GITHUB_ACTIONS", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "LINES"):
     os.environ.pop(name, None)  # what a terminal or a build service says about itself; typer reads some at its import
 os.environ["COLUMNS"] = "400"  # before any console is made: no test of words depends on where a line is broken
@@ -25,6 +28,7 @@ settings.load_profile("fixed")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    items.sort(key=lambda item: item.path.name != LONG_FILE)
     if any(item.get_closest_marker("openfoam") for item in items) and not availability().available:
         reason = f"OpenFOAM is not here: {availability().detail}"
         for item in items:

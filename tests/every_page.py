@@ -70,8 +70,9 @@ def changes(*changed: str) -> list[str]:
 
 
 def comparison(kind: str, folder: Path) -> Path:
-    """The page of a comparison by the models that need no other program; on coarse grids for a cell in plan."""
-    coarse = {"resolutions": Resolutions(least=8, most=32, default=32, series=(8, 16, 32))} if kind == "dimple" else {}
+    """The page of a comparison by the models that need no other program; on coarse grids for films in plan."""
+    plan = kind in ("dimple", "bearing")
+    coarse = {"resolutions": Resolutions(least=8, most=32, default=32, series=(8, 16, 32))} if plan else {}
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
             compare, "models", lambda kind: tuple(replace(one, **coarse) for one in models(kind) if not one.outside)

@@ -8,7 +8,7 @@ from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.grid import grid
 from roughfilm.rom.cavitation.motion.coupled import Drive, full_film, kinds, settled
 from roughfilm.rom.cavitation.motion.film import Inflow, MovingFilm
-from roughfilm.rom.cavitation.motion.march import Course
+from roughfilm.rom.cavitation.motion.march import Course, begun, march
 from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
@@ -102,3 +102,43 @@ def course(film, *, place=None, force=None, speed=None, mass=0.0, scale=1.0):
         stiffness=np.zeros((count, count)),
         velocity_scale=np.full(count, scale),
     )
+
+
+def order(sizes, errors):
+    """The slope of the errors over the sizes, both as logarithms."""
+    return float(np.polyfit(np.log(sizes), np.log(np.abs(errors)), 1)[0])
+
+
+def stored(film, before, after):
+    """∂(θh)/∂t over the whole film, m³/s, by backward Euler or the two-step formula, from the volumes at the times."""
+    volumes = [float((film.grid.areas * known.held).sum()) for known in after.past[:3]]
+    times = [known.time for known in after.past[:3]]
+    if after.order == 1:
+        return (volumes[0] - volumes[1]) / (times[0] - times[1])
+    first, second = times[0] - times[1], times[0] - times[2]
+    assert before.now.time == times[1]
+    return (
+        volumes[0] * (1 / first + 1 / second)
+        - volumes[1] * second / (first * (second - first))
+        + volumes[2] * first / (second * (second - first))
+    )
+
+
+def damping_of_slow_motions(film, place):
+    """B: motions that pass the place at ±v long after their start have forces that differ by -2 B v."""
+    turn = 2 * np.pi * RADIUS / SPEED
+    step, count, velocity = turn / 4, 16, 1e-4 * CLEARANCE / turn
+    columns = []
+    for direction in np.eye(2):
+        forces = []
+        for side in (1, -1):
+            first = place - side * velocity * count * step * direction
+
+            def path(time, first=first, side=side, direction=direction):
+                return first + side * velocity * time * direction
+
+            start, moves = begun(film, steady(film, first, tolerance=1e-12)), course(film, place=path)
+            *_, last = march(film, moves, start, count * step, largest_step=step, error=None, tolerance=1e-12)
+            forces.append(film.force(last.instant.state.pressure))
+        columns.append(-(forces[0] - forces[1]) / (2 * velocity))
+    return np.transpose(columns)

@@ -22,6 +22,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from empty_figures import empty_figures
 from places import MEASURED, ROOT
 from typer.testing import CliRunner
 
@@ -146,6 +147,7 @@ def transcripts(page: str) -> Iterator[tuple[str, str, str]]:
 @pytest.mark.parametrize("page", PAGES)
 def test_pages_show_what_is_printed(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
+    empty_figures(monkeypatch)
     for stream in (console.output, console.messages):
         monkeypatch.setattr(stream, "width", COLUMNS)
     text = page.read_text()

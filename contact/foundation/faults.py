@@ -132,6 +132,14 @@ def _fault(given: Mapping[str, Any], unknown: Callable[[Location], tuple[str, st
             text = "missing; add it"
         case "int_type" | "bool_type" if isinstance(given["input"], str):
             text = f"got {got}; write it without quotes"
+        case "int_type" | "int_from_float":
+            text = f"got {got}; write a whole number"
+        case "greater_than_equal":
+            text = f"got {got}; it must be at least {given['ctx']['ge']}"
+        case "less_than_equal":
+            text = f"got {got}; it must be at most {given['ctx']['le']}"
+        case "tuple_type" if isinstance(given["input"], Mapping):
+            text = f"got one table; write [[{given['loc'][-1]}]], in two brackets, above each of them"
         case "tuple_type":
             text = f"got {got}; write a list in brackets"
         case "too_short":

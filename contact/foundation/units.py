@@ -312,6 +312,8 @@ def converted(text: object, base: str) -> float:
         return _as_float(text)
     if isinstance(text, bool) or not isinstance(text, str | int | float):
         raise ValueError(f"got {_brief(text)}; write a number and a unit, {_example(base)}")
+    if isinstance(text, float) and not math.isfinite(text):
+        raise ValueError(f"got {_brief(text)}; write a finite number and a unit, {_example(base)}")
     if isinstance(text, int | float):
         raise ValueError(f"got {_brief(text)}, a number without a unit; {_with_units(_brief(text), base)}")
     number, unit = _number_and_unit(text, base)

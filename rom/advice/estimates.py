@@ -111,6 +111,10 @@ class AdviceTask:
             chain.append(above)
         return chain
 
+    def is_best(self, model: Model) -> bool:
+        """Whether no other model for the scene leaves out less."""
+        return model.name == best_for(self.scene, self.models).name
+
     def grid(self, model: Model, resolution: int) -> float | None:
         """The error by a resolution over the size of the quantity, by the laws; None without a law.
 
@@ -317,11 +321,13 @@ def a_posteriori(task: AdviceTask, model: Model, resolution: int) -> Estimate | 
 def runs_of_check(task: AdviceTask, model: Model, resolution: int) -> tuple[tuple[Model, int], ...]:
     """The models and resolutions that are run to check a model; none if no check is cheap.
 
-    The resolution of the next model is one whose error is at most ``CHECK_FRACTION`` of that which the laws expect.
+    The resolution of the next model is one whose error is at most ``CHECK_FRACTION`` of that which the laws expect. The
+    uncertainty of its own run checks the best model alone: of another one without a next model, as the laws have none
+    for the scene, it does not contain what the model leaves out.
     """
     above = task.next(model)
     if above is None:
-        return () if model.outside else ((model, resolution),)
+        return () if model.outside or not task.is_best(model) else ((model, resolution),)
     before = a_priori(task, model, resolution)
     finer = task.as_fine(above, 0.0 if before is None else CHECK_FRACTION * before.error)
     if above.available().available and _cheap(task, task.cost(above, finer), task.cost(model, resolution)):

@@ -51,6 +51,12 @@ class FlooredFlowFactors:
         """The entries for the provenance of a result; empty for factors without a table."""
         return getattr(self.factors, "origin", {})
 
+    @property
+    def narrowest(self) -> float:
+        """The smallest mean gap whose factors are known, m; 0 if they are known for any."""
+        known: float = getattr(self.factors, "narrowest", 0.0)
+        return known
+
     def __call__(self, separation: Array, /) -> GapFactors:
         """The flow factors, each of the shape of ``separation``."""
         factors, h = self.factors(separation), self.mean_gap(separation)

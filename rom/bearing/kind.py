@@ -15,6 +15,7 @@ from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity, to_si
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.shapes import SHAPES
 from roughfilm.rom.bearing.moving.over_time import UNITS as COLUMNS_OVER_TIME
 from roughfilm.rom.bearing.numbers import bearing_numbers
@@ -40,6 +41,9 @@ COLUMNS = {
 MIN_LOAD_OVER_FRICTION = 1e-3
 """Load over friction below which errors of the load are related to the friction."""
 
+LEAST_SIZES = {"attitude_angle": 10.0, "eccentricity": 0.1}
+"""Attitude angle, degrees, and eccentricity below which their errors are related to these sizes: both may be 0."""
+
 SYMBOLS = {"compression": "ϑ", "starvation": "θ", "slenderness": "B/L"}
 
 CHOSEN: Mapping[tuple[str | None, ...], Mapping[str, type[Part]]] = {
@@ -51,10 +55,16 @@ CHOSEN: Mapping[tuple[str | None, ...], Mapping[str, type[Part]]] = {
 }
 """Tables of a scene whose classes depend on one of their keys; None is the number of a table in a list."""
 
+MOVING = frozenset(name for name, shape in SHAPES.items() if issubclass(shape, MovingWall))
+"""The shapes whose wall moves freely."""
+
 
 def scale(values: Mapping[str, Any], quantity: str) -> Any:
-    """The magnitude of a quantity; for the load at least ``MIN_LOAD_OVER_FRICTION`` times the friction."""
-    size = np.abs(values[quantity])
+    """The magnitude of a quantity; for the load at least ``MIN_LOAD_OVER_FRICTION`` times the friction.
+
+    That of a place of a shaft is at least the one in ``LEAST_SIZES``.
+    """
+    size = np.maximum(np.abs(values[quantity]), LEAST_SIZES.get(quantity, 0.0))
     if quantity != "load_per_width":
         return size
     return np.maximum(size, MIN_LOAD_OVER_FRICTION * np.abs(values["friction_per_width"]))
@@ -122,11 +132,13 @@ def validation_faults(error: ValidationError, _entries: Mapping[str, Any]) -> li
 
 NUMBERS = {
     "slenderness": "B/L",
+    "piece_slenderness": "B/L of a lobe or pad",
     "convergence": "rise/h",
     "thickness_ratio": "h_max/h",
     "divergence": "widening/h",
     "starvation": "θ",
     "cavitation_number": "(p_amb - p_cav) h²/(6ηuL)",
+    "suction": "suction over suction and ambient pressure",
     "compression": "p/β",
     "piezoviscous": "αp",
     "pressure_dependence": "p_B/β + αp_B",
@@ -153,6 +165,22 @@ def squeezed(entries: Mapping[str, Any]) -> bool:
     """Whether the walls of a scene approach each other or part; the error laws do not hold then."""
     motion = entries["motion"]
     return (motion.approach if isinstance(motion, BearingMotion) else _velocity(motion)) != 0
+
+
+def _moves_freely(entries: Mapping[str, Any]) -> bool:
+    """Whether the wall of a scene is a shaft in lobes or a pad about a pivot."""
+    geometry = entries["geometry"]
+    return (geometry["shape"] if isinstance(geometry, Mapping) else geometry.shape) in MOVING
+
+
+def free(entries: Mapping[str, Any]) -> bool:
+    """Whether the place of a wall that moves freely is sought under a load."""
+    return _moves_freely(entries) and entries.get("load") is not None
+
+
+def placed(entries: Mapping[str, Any]) -> bool:
+    """Whether the place of a wall that moves freely is given."""
+    return _moves_freely(entries) and entries.get("load") is None
 
 
 def _velocity(motion: Mapping[str, Any]) -> float:
@@ -219,19 +247,19 @@ def missing(scene: Bearing, model: Any) -> float:
 
 
 def steady(scene: Bearing) -> Bearing:
-    """The scene at the time of its largest load, if the load changes in time; else the scene."""
+    """The scene at the time by which models are judged, if it changes in time; else the scene."""
     if scene.motion.over_time is None:
         return scene
-    from roughfilm.rom.bearing.march.quasi_static import steady  # slow to import
+    from roughfilm.rom.bearing.march.in_time import steady  # slow to import
 
     return steady(scene)
 
 
 def in_time(scene: Bearing, within: float) -> InTime | None:
-    """What a load over time means for a scene; None for a scene without one."""
-    if scene.motion.over_time is None:
+    """What a motion in time means for a scene; None for a scene without one."""
+    if scene.motion.over_time is None and not scene.motion.approach:
         return None
-    from roughfilm.rom.bearing.march.quasi_static import in_time  # slow to import
+    from roughfilm.rom.bearing.march.in_time import in_time  # slow to import
 
     return in_time(scene, within)
 
@@ -267,6 +295,7 @@ KIND = Kind(
         "side_leakage": "side leakage",
         "friction_coefficient": "friction coefficient",
         "cavitated_fraction": "cavitated fraction",
+        "eccentricity": "eccentricity",
         "attitude_angle": "attitude angle",
         "contact_load_per_width": "load by contact",
         "film_load_per_width": "load by the film",
@@ -281,7 +310,9 @@ KIND = Kind(
     symbols=NUMBERS,
     excluded="inertia, heat and deformation of the bodies as a whole",
     composed=composed,
+    variants={"free_bearing": free, "placed_bearing": placed},
     steady=steady,
+    without_time=Bearing.without_time,
     in_time=in_time,
     lawless=squeezed,
     omitted=omitted,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
-from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
@@ -38,17 +38,23 @@ FILMS_UNDER_LOAD = 2.0
 SEARCH_S = 5e-2
 """CPU time of the search for the film under a load on the coarse grids, s."""
 
-FREE_START_S, FREE_S, FREE_CELLS = 0.1, 8.0, 256
-"""CPU times of a shaft in lobes, s: on coarse grids, and on the finest one of so many cells, by banded elimination."""
+FREE_START_S, FREE_S, FREE_CELLS = 0.05, 0.5, 256
+"""CPU times of a wall that moves freely, s: on coarse grids, and on the finest one of so many cells along the film.
+
+Half of a symmetric width is solved, by banded elimination, whose part ``FREE_ELIMINATION_S`` grows with the fourth
+power of the cells.
+"""
+
+FREE_ELIMINATION_S = 0.01
 
 _solve = deferred("rom.bearing.solve", "solve")
 
 
 def cost(scene: Bearing, cells: int, *, wide: bool, in_plane: float, oblique: float) -> float:
     """The expected CPU seconds; ``in_plane`` and ``oblique`` as in :func:`bearing_model`."""
-    if isinstance(scene.geometry, Lobes) and not (wide or scene.wide):
-        halves = 1 if scene.geometry.symmetric else 2
-        return FREE_START_S + FREE_S * (halves * cells / FREE_CELLS) ** 4
+    if isinstance(scene.geometry, MovingWall) and not (wide or scene.wide):
+        halves, size = 1 if scene.geometry.symmetric else 2, (cells / FREE_CELLS) ** 2
+        return FREE_START_S + halves * size * (FREE_S + FREE_ELIMINATION_S * halves * size)
     films, search = (1.0, 0.0) if scene.load is None else (FILMS_UNDER_LOAD, SEARCH_S)
     if wide or scene.wide:
         return search + films * (4e-3 + 8e-7 * cells)

@@ -7,6 +7,8 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
+from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.ring import Ring, Washer
 from roughfilm.rom.bearing.geometry.shapes import AnyShape
 from roughfilm.rom.bearing.geometry.texture import Texture
@@ -26,6 +28,7 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     Under a load the film is the expected one (:func:`roughfilm.rom.bearing.equilibrium.expected.expected_film`).
 
     slenderness : width over length, if the bearing has a width.
+    piece_slenderness : of a wall that moves freely, width over the length of a lobe or a pad.
     convergence : maximum film thickness without texture over h, minus 1.
     thickness_ratio : convergence plus 1.
     finest : length of the shortest feature along the sliding direction over the length; 1 without features.
@@ -33,6 +36,8 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     cavitation_number : (p_ambient - p_cav)/(6ηuL/h²); infinite at rest.
     divergence : largest increase of the film thickness along the sliding direction over h, with texture and waves of
         the shape; a film without divergence does not cavitate.
+    suction : of a wall that moves freely, divergence over the sum of divergence and cavitation_number; 0 if the film
+        does not widen, and 1 if it widens and cavitates at ambient pressure.
     compression : θ - 1 at 6ηuL/h², which is p/β of a stiff liquid.
     piezoviscous : ln η/η0 at 6ηuL/h², which is αp by Barus' law.
     pressure_dependence : sum of θ - 1 and ln η/η0 at p/(1 + (L/B)²) plus the largest pressure at an edge, p = 6ηuL/h².
@@ -52,6 +57,9 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     finest = _finest(scene)
     if geometry.width is not None:
         numbers["slenderness"] = geometry.width / length
+        if isinstance(geometry, MovingWall):
+            piece = geometry.radius * geometry.turn if isinstance(geometry, Lobes) else length
+            numbers["piece_slenderness"] = geometry.width / piece
     numbers["thickness_ratio"] = numbers["convergence"] + 1
     numbers["finest"] = finest / length if math.isfinite(finest) else 1.0
     if not (isinstance(geometry, Ring) and geometry.endless):
@@ -61,6 +69,9 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
     numbers["cavitation_number"] = (
         tension / scale if scale > 0 else math.copysign(math.inf, tension) if tension else 0.0
     )
+    if isinstance(geometry, MovingWall):
+        widening = numbers["divergence"]
+        numbers["suction"] = widening / (widening + max(numbers["cavitation_number"], 0.0)) if widening > 0 else 0.0
     numbers["compression"], numbers["piezoviscous"] = _pressed(scene, scale)
     numbers["pressure_dependence"] = sum(_pressed(scene, scale * _share_of_wide(geometry) + _largest_at_edges(scene)))
     if roughness is not None:

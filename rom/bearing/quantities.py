@@ -275,8 +275,11 @@ def _begins(solution: Solution, row: int, first: int, x: Array) -> float:
 
 
 def _ends(solution: Solution, row: int, last: int, x: Array) -> float:
-    """The position where a film ends, m: θ extrapolated to 1 from the two nodes behind it, at rest as it begins."""
-    if last + 2 >= x.size:
+    """The position where a film ends, m: θ extrapolated to 1 from the two nodes behind it, at rest as it begins.
+
+    A cavity of one node before an end of the film begins at this node.
+    """
+    if last + 2 >= x.size or solution.kind[last + 2, row] != CAVITY:
         return float(x[min(last + 1, x.size - 1)])
     if solution.problem.speed == 0:
         return float(x[last + 1] + (x[last + 1] - x[last]) * (solution.state.fill[last + 1, row] - 0.5))

@@ -157,7 +157,8 @@ class BearingLoad(Part):
     pressure : load over the nominal area (of a journal bearing: diameter times width), Pa.
     force : load of the whole bearing, of a ring with all of its pieces, N.
     force_per_width : load over the width of an infinitely wide bearing, N/m.
-    angle : direction of the load on a shaft in lobes, from the x axis towards the y axis, rad; by default -90°, down.
+    angle : direction of the load on a shaft in lobes, and in a march on any shaft, from the x axis towards the y axis,
+        rad; by default -90°, down.
     moment_x, moment_y : moments on a pivoted pad about the axes along x, the sliding, and along y through its pivot,
         N m; z points from the sliding wall to the pad. Each pad of a bearing has them.
     """
@@ -318,13 +319,13 @@ class Bearing(Scene):
                 "load.force: is that of the whole bearing, whose number of pads is unknown; give geometry.pads, or "
                 "load.pressure"
             )
-        if load.angle != DOWN and not isinstance(self.geometry, Lobes):
+        in_time = self.motion.over_time is not None or self.body is not None
+        if load.angle != DOWN and not isinstance(self.geometry, Shaft if in_time else Lobes):
             raise ValueError(
                 f"load.angle: got one for the shape {self.geometry.shape!r}; only shafts in lobes have one"
             )
         if load.moment_x or load.moment_y:
             self._can_have_moments(load)
-        in_time = self.motion.over_time is not None or self.body is not None
         carried = self.asperities is not None or self.supply or in_time
         if self.motion.speed == 0 and self.motion.approach <= 0 and not carried:
             parts = " between walls that part" if self.motion.approach else ""
@@ -385,7 +386,7 @@ class Bearing(Scene):
             )
         if boundary.inlet != Inlet() or boundary.outlet != Outlet():
             raise ValueError(f"boundary: got an inlet or outlet, but {pieces} have none; leave it out")
-        if max(boundary.sides.low, boundary.sides.high) <= lowest and not self.supply:
+        if max(boundary.sides.low, boundary.sides.high) <= lowest and not (self.supply or self.motion.approach > 0):
             raise ValueError(
                 f"boundary.sides: got no pressure above the cavitation pressure of {lowest!r} Pa; {pieces} are "
                 "fed through their sides, raise one of the two, or give [[supply]]"
@@ -479,6 +480,15 @@ class Bearing(Scene):
             outlet=outlet.pressure - lowest,
             sides=None if self.wide else sides,
         )
+
+    def without_time(self) -> Self:
+        """The bearing without what changes in time; InputError if it has loads over time and no other."""
+        if self.motion.over_time is None:
+            return self
+        if self.load is None and self.geometry.film is None:
+            raise InputError("load: is missing; a steady film has one load; give [load], or take roughfilm march")
+        motion = self.motion.model_copy(update={"over_time": None})
+        return self.model_copy(update={"motion": motion, "body": None})
 
     @property
     def supply_patches(self) -> tuple[Patch, ...]:

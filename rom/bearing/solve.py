@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -31,6 +31,7 @@ from roughfilm.rom.bearing.warnings import (
     pressure_warnings,
     rupture_warnings,
     scene_warnings,
+    thickness_warnings,
     window_warnings,
 )
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio
@@ -85,6 +86,7 @@ def solve(
         If the film or its load does not converge.
     """
     cells = request.resolution
+    scene.without_time()  # which refuses a scene that has loads over time alone
     if isinstance(scene.geometry, MovingWall):
         with one_time("start"):
             load_loops(scene.wide)
@@ -117,9 +119,10 @@ def solve(
             films = partial(_films, among=among, ruptures=ruptures, tolerance=request.tolerance)
         found = _under_load(scene, cells, among, films, outputs, progress)
     solution, quantities = found.levels[0]
-    uncertainty = uncertainties(found.levels, found.of_factors, found.balance, exact=found.exact)
+    uncertainty = uncertainties(found.levels, found.of_factors, found.balance, exact=found.exact, apart=found.apart)
     warnings = [
         *grid_warnings(solution),
+        *thickness_warnings(found.scene, solution),
         *pressure_warnings(solution),
         *rupture_warnings(solution.state.pressure),
         *scene_warnings(scene, solution),
@@ -168,6 +171,7 @@ class _Found:
     balance : relative error of the load; None if the film was given.
     films : number of films that were solved.
     exact : quantities that have no error of the grid.
+    apart : smallest differences of quantities of the place of a wall on two grids.
     """
 
     scene: Bearing
@@ -177,6 +181,7 @@ class _Found:
     balance: float | None = None
     films: int = 1
     exact: Collection[str] = EXACT
+    apart: Mapping[str, float] = field(default_factory=dict)
 
 
 def _as_given(
@@ -225,6 +230,7 @@ def _free(
         balance=free.balance,
         films=len(free.solved),
         exact=EXACT if free.balance is None else (),
+        apart=free.apart,
     )
 
 

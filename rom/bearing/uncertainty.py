@@ -7,6 +7,7 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.quantities import EXACT
 from roughfilm.rom.cavitation.balance import FILM
+from roughfilm.rom.cavitation.evaluation.fronts import front_uncertainties
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_uncertainty
 from roughfilm.rom.cavitation.solve import Solution
 
@@ -18,6 +19,9 @@ POSITIONS = ("film_start", "rupture")
 
 MIN_CELLS_OF_POSITIONS = 15
 """Number of cells along a side below which a grid does not show where a film begins or ends: it may lack the film."""
+
+MOMENTS = ("moment_x", "moment_y")
+"""Quantities whose round-off is that of the load; of a pad in equilibrium they are those of the scene."""
 
 LEAST_FILM = "film_min"
 """Quantity that is exact for a given film, and uncertain for one that is sought."""
@@ -32,12 +36,14 @@ def uncertainties(
     balance: float | None = None,
     *,
     exact: Collection[str] = EXACT,
+    apart: Mapping[str, float] | None = None,
 ) -> dict[str, float]:
     """The uncertainty of each quantity in its unit, infinite if unknown; empty without a coarser grid.
 
-    It is the sum of that of the grid, ``IMBALANCE_FACTOR`` times the relative error of the flow along the film (of a
-    flow, relative to the largest flow), the relative error of the load, and the contribution of the flow factors.
-    Positions without a film are unknown.
+    It is the sum of that of the grid, at least that of fronts between its nodes, ``IMBALANCE_FACTOR`` times the
+    relative error of the flow along the film (of a flow, relative to the largest flow), the relative error of the load
+    (of a moment, relative to the load times the size of the film), and the contribution of the flow factors. Positions
+    without a film are unknown.
 
     Parameters
     ----------
@@ -45,6 +51,7 @@ def uncertainties(
     of_factors : uncertainties that come from flow factors and contact pressures, by quantity.
     balance : relative error of the load for which the film was sought; None for a given film, whose thickness is exact.
     exact : quantities that have no error of the grid.
+    apart : smallest difference of a quantity on the finest two grids, in its unit, and its least uncertainty.
     """
     if len(levels) == 1:
         return {}
@@ -52,21 +59,31 @@ def uncertainties(
     cells, values = [cells_of(grid) for grid, _ in levels], [level for _, level in levels]
     unknown = infinite_flows(solution) | (frozenset() if (solution.kind == FILM).any() else frozenset(POSITIONS))
     largest_flow = max((abs(one.value) for one in quantities.values() if one.unit == FLOW_UNIT), default=0.0)
-    result = {}
+    arm = abs(quantities["load"].value) * float(solution.grid.areas.sum()) ** 0.5 if "load" in quantities else 0.0
+    least = front_uncertainties(solution, quantities["theta_min"].value) if "theta_min" in quantities else {}
+    moved, result = apart or {}, {}
     for name, quantity in quantities.items():
         known = {count: level[name].value for count, level in zip(cells, values, strict=True) if name in level}
-        size = largest_flow if quantity.unit == FLOW_UNIT else abs(quantity.value)
+        size = largest_flow if quantity.unit == FLOW_UNIT else arm if name in MOMENTS else abs(quantity.value)
         if name in exact and not (name == LEAST_FILM and balance is not None):
             result[name] = 0.0
         elif name in unknown:
             result[name] = math.inf
         elif len(known) > 1:
+            if len(known) == 2:
+                known = _apart(known, moved.get(name, 0.0))
             if name in POSITIONS:
                 known = _positions(known, ring=solution.network.periodic[0])
-            of_grid = grid_uncertainty([*known], [*known.values()])
+            of_grid = max(grid_uncertainty([*known], [*known.values()]), least.get(name, 0.0), moved.get(name, 0.0))
             of_balance = size * (IMBALANCE_FACTOR * solution.imbalance + (balance or 0.0))
             result[name] = of_grid + of_balance + of_factors.get(name, 0.0)
     return result
+
+
+def _apart(known: Mapping[float, float], least: float) -> dict[float, float]:
+    """Values on two grids that differ at least by ``least``."""
+    (finest, value), (coarser, other) = known.items()
+    return {finest: value, coarser: other if abs(other - value) >= least else value + least}
 
 
 def _positions(known: Mapping[float, float], *, ring: bool) -> dict[float, float]:

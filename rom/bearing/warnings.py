@@ -4,7 +4,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.rounding import share
-from roughfilm.rom.bearing.corners import jumps
+from roughfilm.rom.bearing.corners import infinite_flows, jumps
 from roughfilm.rom.bearing.free.lay import StraightFactors
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.quantities import scene_positions
@@ -18,14 +18,33 @@ from roughfilm.rom.homogenization.table.factor_table import FactorTable
 MAX_SIDE_PRESSURE = 0.01
 """Largest pressure at a side over the largest pressure of the film that a model without sides leaves out unwarned."""
 
+MAX_THICKNESS = 0.1
+"""Largest film thickness over the length or the width of a film up to which it counts as thin."""
+
+MAX_PRESSURE = 3e9
+"""Pressure above which no wall is rigid and no oil is liquid, Pa."""
+
 ROUNDING = 1e-9
 """Pressure over the largest one below which it is zero."""
 
 
-def pressure_warnings(solution: Solution) -> list[str]:
-    """Warnings about pressures above the range of validity of a lubricant law."""
-    problem, highest = solution.problem, float(solution.state.pressure.max())
+def thickness_warnings(scene: Bearing, solution: Solution) -> list[str]:
+    """A warning if the film is not thin beside its length and width."""
+    thickest, geometry = float(solution.faces.thickness.max()), scene.geometry
+    smaller = min(geometry.length, geometry.width or geometry.length)
+    if thickest <= MAX_THICKNESS * smaller:
+        return []
     return [
+        f"film thickness: up to {thickest:.3g} m, over a tenth of the length or width of {smaller:.3g} m; the "
+        "equations of thin films do not hold, check load, film and slopes"
+    ]
+
+
+def pressure_warnings(solution: Solution) -> list[str]:
+    """Warnings about pressures above the range of validity of a lubricant law, or above any that rigid walls bear."""
+    problem, highest = solution.problem, float(solution.state.pressure.max())
+    beyond = [f"pressure: {highest:.3g} Pa; walls deform and oils turn solid above about {MAX_PRESSURE:.0e} Pa"]
+    return (beyond if highest > MAX_PRESSURE else []) + [
         f"pressure: {highest:.3g} Pa above cavitation pressure; the law {law.law} is valid up to {law.valid_to:.3g} Pa"
         for law in (problem.compressibility, problem.piezoviscosity)
         if highest > law.valid_to
@@ -94,11 +113,20 @@ def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:
             f"boundary.sides: one line leaves out the pressure of {fed:.3g} Pa at a side, while the largest one in the "
             f"film is {highest:.3g} Pa; take reynolds_cavitating"
         )
-    remedy = ", or [[supply]] with grooves that end before the sides" if isinstance(scene.geometry, Lobes) else ""
-    warnings += [
-        f"the pressure at the {jump.end} is {jump.difference:.3g} Pa above that at the {jump.side} side: the flows "
-        f"through both edges are infinite; {jump.end}_flow, side_leakage_{jump.side} and side_leakage grow with the "
-        f"logarithm of the cells; give both edges the same pressure{remedy}"
-        for jump in jumps(solution)
+    return warnings + _infinite_flows(scene, solution)
+
+
+def _infinite_flows(scene: Bearing, solution: Solution) -> list[str]:
+    """One warning for all jumps of the pressure at corners of the film, with the flows that they make infinite."""
+    found = jumps(solution)
+    if not found:
+        return []
+    lobes = isinstance(scene.geometry, Lobes) and not scene.geometry.single
+    corners = {(("gaps" if lobes else jump.end), jump.side): jump.difference for jump in found}
+    named = ", ".join(f"{end} and {side} side ({by:+.3g} Pa)" for (end, side), by in corners.items())
+    remedy = ", or [[supply]] with grooves that end before the sides" if lobes else ""
+    return [
+        f"the pressure jumps between {named}: the flows through these edges are infinite, and "
+        f"{', '.join(sorted(infinite_flows(solution)))} grow with the logarithm of the cells; give both edges the same "
+        f"pressure{remedy}"
     ]
-    return warnings

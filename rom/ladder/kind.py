@@ -105,7 +105,7 @@ class Omission:
 
 @dataclass(frozen=True, kw_only=True)
 class InTime:
-    """What a load that changes in time means for a scene.
+    """What a motion in time means for a scene.
 
     Attributes
     ----------
@@ -141,9 +141,10 @@ class Kind:
     reported : the titles of all quantities in tables and pages, in their order there.
     remarks : remarks(entries, quantities), sentences that belong to the quantities of a result, such as for which part
         of the whole they hold.
-    compared_with : the compared quantities of scenes that have a table, by the name of the table; the error laws do not
-        hold for these scenes.
-    lawful : whether the error laws hold; False for the kind of a scene with such a table, or of one that is lawless.
+    compared_with : the compared quantities of scenes that have a table, by the name of the table; the error laws of the
+        kind do not hold for these scenes, those of a variant do.
+    lawful : whether the error laws hold; False for a scene with such a table and the laws of the kind, and for one that
+        is lawless.
     lawless : lawless(entries), whether the error laws do not hold for a scene with these entries.
     laws : name of the error laws of its scenes in the table of laws; "" for the name of the kind.
     variants : by the name of their error laws, whether entries of a scene have these laws in place of those of the
@@ -161,8 +162,9 @@ class Kind:
     window : window(scene), the rough surface that stands for a larger one; None if a scene has none.
     composed : composed(scene), a line on the model of each effect of a scene, with its reason.
     excluded : the effects that no model of the kind includes, in words.
-    steady : steady(scene), the scene at the time of its largest load, by which models are judged.
-    in_time : in_time(scene, within), what a load over time means for a tolerance; None for a scene that is steady.
+    steady : steady(scene), the scene at the time by which models are judged, such as that of its largest load.
+    without_time : without_time(scene), the scene without what changes in time, which a model solves.
+    in_time : in_time(scene, within), what a motion in time means for a tolerance; None for a scene that is steady.
     omitted : omitted(scene, model, quantity), the size of an effect that a model leaves out and that the error laws do
         not count, such as one that no model of the kind includes; None if it is zero or unknown.
     missing : missing(scene, model), the relative size of the effects that a model leaves out in a scene, where no model
@@ -194,6 +196,7 @@ class Kind:
     window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     steady: Callable[[Any], Any] = as_given
+    without_time: Callable[[Any], Any] = as_given
     in_time: Callable[[Any, float], InTime | None] = unchanging
     omitted: Callable[[Any, Any, str], Omission | None] = nothing_omitted
     missing: Callable[[Any, Any], float] = nothing_missing
@@ -246,7 +249,7 @@ class Kind:
 
     def _comparing(self, compared: Mapping[str, str]) -> "Kind":
         others = {name: title for name, title in self.titles.items() if name not in compared}
-        return replace(self, compared=compared, others=others, lawful=False)
+        return replace(self, compared=compared, others=others, lawful=bool(self.laws))
 
     def read(self, entries: Mapping[str, Any], file: EntriesFile | None = None) -> Scene:
         """Make a scene of this kind from nested entries of a file; InputError with a line for each fault."""
@@ -264,8 +267,9 @@ class Kind:
         return float(self.scale({name: one.value for name, one in result.quantities.items()}, quantity))
 
     def shared(self, *results: Result) -> tuple[str, ...]:
-        """The names of the compared quantities that all of these results have."""
-        return tuple(name for name in self.compared if all(name in result.quantities for result in results))
+        """The names of the compared quantities that all of these results have and whose size in the last is not 0."""
+        names = (name for name in self.compared if all(name in result.quantities for result in results))
+        return tuple(name for name in names if self.scale_of(results[-1], name) != 0)
 
 
 @cache

@@ -12,6 +12,7 @@ from typing import Any
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -63,6 +64,10 @@ def speed_against_accuracy(
     figure, panels = new_figure((10, 4.6), 1, len(titles))
     for axes, (quantity, title) in zip(panels, titles.items(), strict=True):
         known = [point for point in chart if quantity in point.error]
+        if not known:
+            axes.set_axis_off()
+            axes.text(0.5, 0.5, f"{title}: 0, no relative error", ha="center", transform=axes.transAxes)
+            continue
         bar = floor.get(quantity, 0.0)
         drawn = partial(_drawn, least=LEAST * bar)
         for name in dict.fromkeys(point.model for point in known):
@@ -92,10 +97,8 @@ def speed_against_accuracy(
         axes.set(
             xscale="log", yscale="log", xlabel="CPU time, s", ylabel=f"error in {title}\nrelative to the reference, %"
         )
-        lowest = min((drawn(p.error[quantity]) for p in known), default=None)
-        if lowest is not None:
-            axes.set_ylim(bottom=lowest / 2)
-            whole_decades(axes.xaxis, axes.yaxis)
+        axes.set_ylim(bottom=min(drawn(p.error[quantity]) for p in known) / 2)
+        whole_decades(axes.xaxis, axes.yaxis)
     _legend_above(figure)
     return figure
 
@@ -187,10 +190,11 @@ def map_figure(size: tuple[float, float], models: int, height: float) -> tuple[F
 def svg(figure: Figure) -> str:
     """The figure as SVG text, which holds the values that a page shows under the pointer.
 
-    The text can stand beside others on one page: its identifiers begin with a digest of itself.
+    The text can stand beside others on one page: its identifiers begin with a digest of itself. The figure is laid out
+    and drawn once; ``Figure.savefig`` draws it one more time, without output, to lay it out.
     """
     buffer = io.StringIO()
-    figure.savefig(buffer, format="svg", metadata={"Date": None})
+    FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})  # type: ignore[no-untyped-call]
     text = buffer.getvalue()
     text = text[text.index("<svg") :]
     own = "f" + hashlib.sha256(text.encode()).hexdigest()[:8] + "-"

@@ -155,8 +155,9 @@ def dynamics(
     tuple of DynamicCurve
         One curve for each load. Its ``points`` have ``stiffness`` and ``damping``, arrays of N/m and N s/m whose rows
         are forces, and quantities by their names, ``point["whirl_ratio"]``, ``point["critical_mass"]``,
-        ``point["eccentricity"]``, with uncertainties from two coarser grids. Speeds without an equilibrium are in
-        ``omitted``; ``onset`` is the rotational speed, rad/s, at which the rotor of a mass becomes unstable.
+        ``point["eccentricity"]``, and of walls with asperities ``point["contact_share"]``, with uncertainties from two
+        coarser grids, and from flow factors and contact pressures. Speeds without an equilibrium are in ``omitted``;
+        ``onset`` is the rotational speed, rad/s, at which the rotor of a mass becomes unstable.
 
     Raises
     ------

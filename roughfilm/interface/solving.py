@@ -11,7 +11,7 @@ from roughfilm.interface.scenes import checked_scene
 from roughfilm.rom.advice import advise as advice
 from roughfilm.rom.advice.expected import with_errors
 from roughfilm.rom.advice.measured import with_measured_errors
-from roughfilm.rom.ladder.kind import Scene, kind_names
+from roughfilm.rom.ladder.kind import Scene, kind_names, kind_of_scene
 from roughfilm.rom.ladder.model import Model, Progress, best_for, silent
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -182,6 +182,7 @@ def solve_as_advised(
         If a program that the model needs is not installed.
     """
     tolerance = advice.DEFAULT_TOLERANCE if within is None else within
+    scene = kind_of_scene(scene).without_time(scene)
     advised = advise(scene, within=tolerance, quantity=quantity, progress=progress)
     taken = advised.chosen or (advised.fallback if within is None else None)
     if taken is None:

@@ -89,7 +89,7 @@ def write_comparison(report: Report, path: Path) -> None:
         path,
         report=report,
         view=report.view,
-        compared=report.kind.compared,
+        compared={name: report.kind.compared[name] for name in report.kind.shared(best_result)},
         reduced=report.best != best_for(report.scene, _applying(report)).name,
         best=best_result,
         headline=head,

@@ -20,6 +20,8 @@ COLUMNS = (
     ("attitude", "°", "attitude_angle", 1.0),
     ("least film", "µm", "film_min", 1e6),
     ("peak pressure", "MPa", "pressure_max", 1e-6),
+    ("carried by contact", "%", "contact_share", 100.0),
+    ("contact pressure", "MPa", "contact_pressure_max", 1e-6),
     ("power", "kW", "power_loss", 1e-3),
     ("side leakage", "ml/s", "side_leakage", 1e6),
     ("Sommerfeld number", "", "sommerfeld_number", 1.0),
@@ -60,6 +62,8 @@ def write_page(scene: Bearing, entries: Mapping[str, Any], curves: Sequence[Dyna
         dimensionless=svg(figures.coefficients(scene, curves, dimensionless=True)) if shaft else None,
         places=svg(figures.places(scene, curves)) if shaft else None,
         stability=svg(figures.stability(scene, curves)) if shaft else None,
+        rough=scene.roughness is not None,
+        contact=scene.asperities is not None,
         pads=getattr(scene.geometry, "pivot", None) is not None,
     )
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from roughfilm.figures.base import svg
 from roughfilm.figures.motion import march as figures
+from roughfilm.figures.shafts.angles import along_of
 from roughfilm.pages.render import render
 from roughfilm.rom.bearing.march.solve import March
 from roughfilm.words.march import headline, rows_of
@@ -21,7 +22,7 @@ def left_out(march: March) -> str:
 
 def write_page(march: March, entries: Mapping[str, Any], path: Path) -> None:
     """Write the page of a march and of the object of ``--json``; InputError if the file cannot be written."""
-    series = march.series
+    series, along = march.series, along_of(march.placed)
     late = [number for number, time in enumerate(series.time) if time >= march.first]
     least = min(late, key=lambda number: float(series["film_min"][number]))
     near = min(series.snapshots, key=lambda one: abs(one.time - series.time[least]), default=None)
@@ -38,6 +39,8 @@ def write_page(march: March, entries: Mapping[str, Any], path: Path) -> None:
         orbit=svg(figures.orbit(march)) if "eccentricity_x" in series.units else None,
         over_time=svg(figures.over_time(march)),
         film=None if near is None else svg(figures.film(march, near)),
+        gaps=bool(along.gaps),
+        pivots=bool(along.pivots),
         drawn="" if near is None else f"{near.time:.4g}",
         ends=f"{series.time[0]:.4g} s to {series.time[-1]:.4g} s",
         window=f"{march.first:.4g} s to {march.last:.4g} s",

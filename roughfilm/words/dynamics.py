@@ -61,6 +61,8 @@ def answer_of(scene: Bearing, curve: DynamicCurve) -> str:
     """Stiffness, damping and stability of a curve at the speed nearest to that of the scene."""
     point, scale = own_point(scene, curve), speed_scale(scene)
     at = f"at {digits(scale.factor * point.speed)} {scale.unit} under {curve.pressure / 1e6:.4g} MPa"
+    if point.numbers.get("contact_share"):
+        at += f", of which asperities carry {number_of(point, 'contact_share', 100.0)} %"
     if "whirl_ratio" not in point.numbers:
         return f"stiffness {number_of(point, 'stiffness', 1e-6)} N/µm, damping {number_of(point, 'damping')} N·s/m {at}"
     mass = critical_mass(point)

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.words.numbers import with_error
+from roughfilm.words.units import scale_of
 
 SHOWN = {
     "m": (1e-6, "µm"),
@@ -13,12 +14,12 @@ SHOWN = {
     "N*m": (1.0, "N m"),
     "1": (1.0, ""),
 }
-"""The unit in which a quantity of each SI unit is shown, and its size; others are shown in SI units."""
+"""The unit in which a quantity of each SI unit is shown, and its size; that of others depends on their size."""
 
 
 def shown(quantity: Quantity) -> tuple[str, str]:
     """The number of a quantity with its uncertainty, and its unit."""
-    size, unit = SHOWN.get(quantity.unit, (1.0, quantity.unit))
+    size, unit = SHOWN.get(quantity.unit) or scale_of(quantity.unit, abs(quantity.value))
     uncertainty = None if quantity.uncertainty is None else quantity.uncertainty / size
     return with_error(quantity.value / size, uncertainty), unit
 

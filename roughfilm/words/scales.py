@@ -129,7 +129,7 @@ class Scales:
 
 
 def family(name: str, unit: str) -> str:
-    """The name of the quantities that share a unit: all pressures, all gaps, all flows; friction and plain numbers not.
+    """The name of the quantities that share a unit: all pressures, all gaps, all flows; not friction, numbers, angles.
 
     Examples
     --------
@@ -138,7 +138,7 @@ def family(name: str, unit: str) -> str:
     >>> family("friction", "N") == family("load", "N")
     False
     """
-    if unit == "1" or name in PLACES:
+    if unit in ("1", "rad") or name in PLACES:
         return name
     return f"{unit} of friction" if "friction" in name else unit
 

@@ -57,7 +57,7 @@ SCALES: Mapping[str, Scales] = {
     "W/m": _prefixed("W/m", -6, -3, 0, 3, 6),
     "kg/s": _prefixed("g/h", -9, -6, -3, 0, 3, size=1e-3 * _HOUR),
     "kg/(m*s)": _prefixed("g/(h·m)", -9, -6, -3, 0, 3, size=1e-3 * _HOUR),
-    "rad": ((math.pi / 180, "°"),),
+    "rad": ((1e-6, "µrad"), (1e-3, "mrad"), (math.pi / 180, "°")),
     "deg": ((1.0, "°"),),
 }
 """Sizes of the units in which a quantity is shown, in its SI unit, with their names; the smallest first."""

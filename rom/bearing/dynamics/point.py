@@ -14,6 +14,7 @@ from roughfilm.rom.bearing.free.equilibrium import holding
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.free.solve import placed
 from roughfilm.rom.bearing.geometry.journal import Shaft
+from roughfilm.rom.bearing.mixed.quantities import mixed_quantities
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.evaluation.grids import grid_uncertainty
@@ -37,10 +38,20 @@ STATIC: Mapping[str, str] = {
 }
 """Names and units of the quantities of the equilibrium, as those of a solved bearing."""
 
+CONTACT: Mapping[str, str] = {
+    "contact_share": "1",
+    "contact_load": "N",
+    "contact_pressure_max": "Pa",
+    "contact_area": "1",
+    "least_gap": "m",
+}
+"""The same of walls whose asperities may touch, as those of the model ``mixed``."""
+
 UNITS: Mapping[str, str] = {
     **{f"stiffness{entry}": "N/m" for entries in ENTRIES.values() for entry in entries},
     **{f"damping{entry}": "N*s/m" for entries in ENTRIES.values() for entry in entries},
     **STATIC,
+    **CONTACT,
     "whirl_ratio": "1",
     "critical_mass": "kg",
 }
@@ -51,8 +62,8 @@ UNITS: Mapping[str, str] = {
 class DynamicPoint:
     """The equilibrium of a bearing at a speed and a load.
 
-    The film exerts the force δF = -K δq - B δq' on a wall that moves by δq from the equilibrium: a shaft along x and y,
-    a pad towards the other wall.
+    Film and asperities exert the force δF = -K δq - B δq' on a wall that moves by δq from the equilibrium: a shaft
+    along x and y, a pad towards the other wall.
 
     Attributes
     ----------
@@ -124,9 +135,10 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
         **dict(zip(named("stiffness", len(stiffness)), map(float, stiffness.flat), strict=True)),
         **dict(zip(named("damping", len(damping)), map(float, damping.flat), strict=True)),
     }
-    static = bearing_quantities(placed(film, instant), film.solution(instant))
+    quantities = bearing_quantities if scene.asperities is None else mixed_quantities
+    static = quantities(placed(film, instant), film.solution(instant))
     power = "power_loss" if scene.wide else "power_loss_per_width"
-    numbers |= {name: static[name].value for name in STATIC if name in static and name != power}
+    numbers |= {name: static[name].value for name in (*STATIC, *CONTACT) if name in static and name != power}
     whirl = None
     if isinstance(scene.geometry, Shaft):
         whirl = rigid_whirl(stiffness, damping) if kept.all() else whirl_of(at, rotation)
@@ -146,7 +158,12 @@ def rotation_of(scene: Bearing, speed: float) -> float:
     return 0.0 if radius is None else abs(speed) / radius
 
 
-def finished(points: Sequence[GridPoint], rotation: float) -> tuple[dict[str, float], dict[str, float]]:
+def finished(
+    points: Sequence[GridPoint],
+    rotation: float,
+    of_walls: Callable[[str], float] = lambda _name: 0.0,
+    balance: float = 0.0,
+) -> tuple[dict[str, float], dict[str, float]]:
     """The numbers on the finest grid and their uncertainties.
 
     Those of mass and frequency of a whirl are had from 1/M and ν², which are finite where there is no whirl.
@@ -155,12 +172,16 @@ def finished(points: Sequence[GridPoint], rotation: float) -> tuple[dict[str, fl
     ----------
     points : the point on each grid, from fine to coarse; a single one has no uncertainty.
     rotation : rotational speed ω, rad/s.
+    of_walls : the uncertainty of a number, or of an entry of the whirl, by flow factors and contact pressures.
+    balance : relative error of the load.
     """
     cells, finest = [point.cells for point in points], points[0]
     numbers = dict(finest.numbers)
     uncertainty = {
-        name: grid_uncertainty(cells, [point.numbers[name] for point in points]) if len(points) > 1 else math.inf
-        for name in numbers
+        name: grid_uncertainty(cells, [point.numbers[name] for point in points]) + of_walls(name) + balance * abs(value)
+        if len(points) > 1
+        else math.inf
+        for name, value in numbers.items()
     }
     whirls = [point.whirl for point in points if point.whirl is not None]
     if not whirls:
@@ -168,16 +189,24 @@ def finished(points: Sequence[GridPoint], rotation: float) -> tuple[dict[str, fl
     inverse, squared = ([getattr(whirl, name) for whirl in whirls] for name in ("inverse_mass", "frequency_squared"))
     numbers["critical_mass"] = 1 / inverse[0] if inverse[0] > 0 else math.inf
     numbers["whirl_ratio"] = math.sqrt(max(squared[0], 0.0)) / rotation if math.isfinite(squared[0]) else math.nan
-    uncertainty["critical_mass"] = _after(lambda value: 1 / value if value > 0 else math.inf, cells, inverse)
-    uncertainty["whirl_ratio"] = _after(lambda value: math.sqrt(max(value, 0.0)) / rotation, cells, squared)
+    by_walls = of_walls("inverse_mass"), of_walls("frequency_squared")
+    uncertainty["critical_mass"] = _after(
+        lambda value: 1 / value if value > 0 else math.inf, cells, inverse, by_walls[0]
+    )
+    uncertainty["whirl_ratio"] = _after(
+        lambda value: math.sqrt(max(value, 0.0)) / rotation, cells, squared, by_walls[1]
+    )
     return numbers, uncertainty
 
 
-def _after(function: Callable[[float], float], cells: Sequence[float], values: Sequence[float]) -> float:
-    """The uncertainty of a monotonic function of a value, from both ends of its interval; infinite if it is unknown."""
-    if len(values) < 2 or not all(map(math.isfinite, values)):
+def _after(function: Callable[[float], float], cells: Sequence[float], values: Sequence[float], more: float) -> float:
+    """The uncertainty of a monotonic function of a value, from both ends of its interval; infinite if it is unknown.
+
+    ``more`` is the uncertainty of the value besides that of the grid.
+    """
+    if len(values) < 2 or not all(map(math.isfinite, (*values, more))):
         return math.inf
-    here, error = function(values[0]), grid_uncertainty(cells, values)
+    here, error = function(values[0]), grid_uncertainty(cells, values) + more
     ends = function(values[0] - error), function(values[0] + error)
     if here == ends[0] == ends[1]:
         return 0.0

@@ -11,9 +11,12 @@ from scipy.optimize import brentq
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, grid_point, rotation_of
+from roughfilm.rom.bearing.dynamics.wall_errors import wall_errors
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
+from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
+from roughfilm.rom.bearing.march.rough_walls import Walls, walls_of
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
 from roughfilm.rom.cavitation.motion.coupled import Instant
 from roughfilm.rom.ladder.model import Progress, silent
@@ -23,6 +26,9 @@ RESOLUTION, MIN_CELLS, MAX_CELLS = 128, 32, 512
 
 COARSENING = (4, 2, 1)
 """Cells along the finest grid over those of each grid, in the order in which they are solved."""
+
+CELLS_PER_LOBE = 4
+"""Smallest number of cells along a lobe of a coarser grid: with fewer its film is not resolved at all."""
 
 TOLERANCE = 1e-9
 """Residual at which a film is solved."""
@@ -95,7 +101,8 @@ def dynamics(
     """Compute equilibrium, stiffness and damping of a bearing at several speeds and loads.
 
     Each film starts from that of the speed before, on three grids with a quarter, half and all of the cells, from which
-    the uncertainty is estimated. Points without an equilibrium are left out.
+    the uncertainty is estimated; that of flow factors and contact pressures adds to it. Points without an equilibrium
+    are left out.
 
     Parameters
     ----------
@@ -118,7 +125,7 @@ def dynamics(
     """
     ordered = _checked(scene, speeds, pressures, resolution, frequency_ratio, mass)
     done = {(point.pressure, point.speed): point for point in known}
-    curves = []
+    walls, curves = walls_of(scene), []
     for number, pressure in enumerate(sorted(pressures)):
         started: dict[int, Instant] = {}
         points: list[DynamicPoint] = []
@@ -129,9 +136,8 @@ def dynamics(
             point = done.get((pressure, speed))
             if point is None:
                 try:
-                    point = dynamic_point(
-                        at_operation(scene, speed, pressure), pressure, resolution, frequency_ratio, started
-                    )
+                    operation = at_operation(scene, speed, pressure)
+                    point = dynamic_point(operation, walls, pressure, resolution, frequency_ratio, started)
                 except (InputError, ConvergenceError) as error:
                     omitted.append(Omitted(speed=speed, reason=str(error)))
                     refused = refused or error
@@ -141,7 +147,7 @@ def dynamics(
         if not points:
             assert refused is not None
             raise refused
-        onset = None if mass is None else onset_of(scene, points, mass, resolution, frequency_ratio)
+        onset = None if mass is None else onset_of(scene, walls, points, mass, resolution, frequency_ratio)
         curves.append(DynamicCurve(pressure=pressure, points=tuple(points), omitted=tuple(omitted), onset=onset))
     return tuple(curves)
 
@@ -156,32 +162,43 @@ def at_operation(scene: Bearing, speed: float, pressure: float) -> Bearing:
 
 
 def dynamic_point(
-    scene: Bearing, pressure: float, resolution: int, frequency_ratio: float, started: dict[int, Instant]
+    scene: Bearing,
+    walls: Walls,
+    pressure: float,
+    resolution: int,
+    frequency_ratio: float,
+    started: dict[int, Instant],
 ) -> DynamicPoint:
     """The point of a bearing at its speed and load.
 
     Parameters
     ----------
+    walls : its walls, smooth or rough.
     started : a film near the equilibrium on each grid, by the coarsening of the grid; replaced by those of the point.
     """
     cpu = time.process_time()
-    solved = list(_equilibria(scene, resolution, started))
+    solved = list(_equilibria(scene, walls, resolution, started))
     points = [grid_point(film, instant, frequency_ratio) for film, instant in reversed(solved)]
     if points[0].numbers.get("stiffness", 1.0) <= 0:
         raise InputError(
             "load: the equilibrium of the pad is not stable; move the pivot, or take another load or speed"
         )
-    if points[0].numbers["film_min"] <= 0:
+    closest = -math.inf if walls.contact is not None else walls.closest
+    if points[0].numbers["film_min"] <= closest:
         raise InputError(
             "load: the walls touch between the nodes of the grid; lower the load, or raise the speed or the viscosity"
         )
-    points = [point for point in points if point.numbers["film_min"] > 0]
+    points = [point for point in points if point.numbers["film_min"] > closest]
     speed, (film, instant) = abs(scene.motion.speed), solved[-1]
     rotation = rotation_of(scene, speed)
-    numbers, uncertainty = finished(points, rotation)
+    of_walls = wall_errors(walls, *solved[max(len(solved) - 2, 0)], frequency_ratio, tolerance=TOLERANCE)
+    shaft = ~film.wall.turns
+    net_force = film.solved.force(instant.state.pressure) + film.solved.contact_at(instant.place).force + film.load
+    load = math.hypot(*film.load[shaft])
+    numbers, uncertainty = finished(points, rotation, of_walls, math.hypot(*net_force[shaft]) / load)
     return DynamicPoint(
         pressure=pressure,
-        load=math.hypot(*film.load[~film.wall.turns]),
+        load=load,
         speed=speed,
         rotation=rotation,
         numbers=numbers,
@@ -191,15 +208,21 @@ def dynamic_point(
     )
 
 
-def _equilibria(scene: Bearing, resolution: int, started: dict[int, Instant]) -> Iterator[tuple[FreeFilm, Instant]]:
+def _equilibria(
+    scene: Bearing, walls: Walls, resolution: int, started: dict[int, Instant]
+) -> Iterator[tuple[FreeFilm, Instant]]:
     """The equilibrium on each grid, from coarse to fine; coarse ones may be missing.
 
     A coarse grid may lack an equilibrium that the others have; two of them are taken to show that there is none.
     """
     coarse: tuple[FreeFilm, Instant] | None = None
     refused = 0
+    least = CELLS_PER_LOBE * scene.geometry.lobes if isinstance(scene.geometry, Lobes) else 0
     for coarsening in COARSENING:
-        film = free_film(scene, (resolution // coarsening, resolution // coarsening // 2))
+        if coarsening != COARSENING[-1] and resolution // coarsening < least:
+            continue
+        cells = resolution // coarsening, resolution // coarsening // 2
+        film = free_film(scene, cells, film=walls.film, contact=walls.contact, closest=walls.closest)
         start = started.pop(coarsening, None)
         if start is None and coarse is not None:
             start = refined(*coarse, film)
@@ -225,7 +248,12 @@ def _far(start: Instant, found: Instant) -> bool:
 
 
 def onset_of(
-    scene: Bearing, points: Sequence[DynamicPoint], mass: float, resolution: int, frequency_ratio: float
+    scene: Bearing,
+    walls: Walls,
+    points: Sequence[DynamicPoint],
+    mass: float,
+    resolution: int,
+    frequency_ratio: float,
 ) -> Onset:
     """The lowest speed at which the critical mass falls to that of a rotor.
 
@@ -233,6 +261,7 @@ def onset_of(
 
     Parameters
     ----------
+    walls : the walls of the bearing.
     points : points under one load in order of speed.
     mass : mass of the rotor in the bearing, kg.
     """
@@ -250,9 +279,8 @@ def onset_of(
 
     def at(speed: float) -> float:
         if speed not in tried:
-            tried[speed] = dynamic_point(
-                at_operation(scene, speed, before.pressure), before.pressure, resolution, frequency_ratio, started
-            )
+            operation = at_operation(scene, speed, before.pressure)
+            tried[speed] = dynamic_point(operation, walls, before.pressure, resolution, frequency_ratio, started)
         return _excess(tried[speed], mass)
 
     speed = float(brentq(at, before.speed, after.speed, rtol=ONSET_TOLERANCE, xtol=ONSET_TOLERANCE * before.speed))
@@ -297,15 +325,12 @@ def _checked(
 
 
 def check_bearing(scene: Bearing) -> None:
-    """Raise InputError for a bearing whose walls do not move freely, or may touch."""
+    """Raise InputError for a bearing whose walls do not move freely."""
     if not isinstance(scene.geometry, MovingWall):
         raise InputError(
             f"geometry.shape: got {scene.geometry.shape!r}; stiffness and damping are those of a wall that moves "
             "freely, take 'lobes' or a pad about its pivot"
         )
-    if scene.asperities is not None or scene.roughness is not None:
-        place = "asperities" if scene.asperities is not None else "roughness"
-        raise InputError(f"{place}: got some; stiffness and damping are those of smooth walls, remove [{place}]")
 
 
 def mass_of(scene: Bearing) -> float | None:

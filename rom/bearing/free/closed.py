@@ -5,6 +5,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.quantities import scene_positions
@@ -17,6 +18,9 @@ CLOSEST = 1e-4
 
 CLOSEST_CONTACT = 2e-3
 """Distance from the smallest known separation of walls that touch, over that of first contact from it."""
+
+CLOSEST_ROUGH = 1e-2
+"""Distance from the smallest film of which flow factors are known, over that film, below which none is sought."""
 
 CLOSEST_PAD = 1e-2
 """The same for pads that carry no load, and over the film of a pad about its pivot that narrows to half."""
@@ -33,6 +37,12 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
     contact = film.solved.contact
     if contact is not None:
         return _beyond_contact(film, instant, force, contact)
+    known = film.solved.closest
+    if known > 0 and film.solved.room(instant.place) < CLOSEST_ROUGH * known:
+        return InputError(
+            f"load: got {np.hypot(*force[:2]):.6g} N; no film above {known:.4g} m, the thinnest of which flow factors "
+            "are known, carries it; lower the load, raise the speed or the viscosity, or add [asperities]"
+        )
     thickness, geometry, x = instant.faces.thickness, film.scene.geometry, film.solved.grid.x
     least = float(thickness.min())
     pads = isinstance(geometry, Lobes) and geometry.pivot is not None
@@ -49,24 +59,55 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
             place, remedy = "its outlet", "move the pivot towards the middle, or take more cells"
         else:
             place, remedy = "a side", "move the pivot towards the middle of the width"
-        return InputError(
-            f"geometry.pivot: got {list(geometry.pivot)}; no tilt balances the moments, the film closes at {place}; "
-            f"{remedy}"
-        )
+        given, load = f"geometry.pivot: got {list(geometry.pivot)}", film.scene.load
+        if load is not None and (load.moment_x or load.moment_y):
+            given += f" and moments of {load.moment_x:.4g} and {load.moment_y:.4g} N*m about x and y"
+            remedy = f"change load.moment_x or load.moment_y, or {remedy}"
+        return InputError(f"{given}; no tilt balances the moments, the film closes at {place}; {remedy}")
     if isinstance(geometry, Lobes) and geometry.pivot is not None:
         solution = film.solution(instant)
         above = solution.grid.areas * (solution.state.pressure + film.scene.lubricant.cavitation_pressure)
         pad = int(geometry.lobe(scene_positions(solution)[i])) + 1
         if pad in unloaded(geometry, scene_positions(solution), above):
             return InputError(
-                f"geometry: pad {pad} carries no load, and the suction of its film closes it; raise the preload, or "
-                "set lubricant.cavitation_pressure to 0 Pa, at which air enters"
+                f"geometry: pad {pad} carries no load, and at every tilt the suction of its film draws an edge of it "
+                "onto the shaft; raise the preload, move the pivot behind the middle, or set "
+                "lubricant.cavitation_pressure to 0 Pa, at which air enters"
             )
     if least >= CLOSEST * film.wall.unit[0]:
         return None
+    remedies = ["lower the load", "raise the speed or the viscosity"]
+    if isinstance(geometry, Lobes) and any(geometry.misalignment):
+        remedies.insert(1, "lower geometry.misalignment")
+    if film.scene.roughness is not None:
+        remedies.append("give [asperities], which may touch")
     return InputError(
-        f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; lower the load, or "
-        "raise the speed or the viscosity"
+        f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; "
+        f"{', '.join(remedies[:-1])}, or {remedies[-1]}"
+    )
+
+
+def starved(film: FreeFilm, instant: Instant) -> InputError | None:
+    """The reason why a film has no equilibrium whose pressures behind all restrictors are above cavitation; or None.
+
+    On the way to an equilibrium these pressures may fall below it, where they have no meaning.
+    """
+    restricted = film.solved.restricted
+    if not film.solved.ruptures or not restricted:
+        return None
+    lowest = min(restricted, key=lambda number: float(instant.pressures[number]))
+    pressure = float(instant.pressures[lowest])
+    if pressure >= 0:
+        return None
+    supply = lowest - (len(film.solved.inflows) - len(film.scene.supply))
+    given = film.scene.supply[supply].flow is not None
+    passes = "is given" if given else "its restrictor passes"
+    remedy = "raise the flow" if given else "raise the pressure, widen the restrictor"
+    x, y = (float(value) for value in instant.place[:2] / film.wall.unit[0])
+    at = f" at the eccentricity ({x:.3g}, {y:.3g})" if isinstance(film.scene.geometry, Shaft) else ""
+    return InputError(
+        f"supply.{supply}: in equilibrium{at} the film takes in more than {passes}, and the pressure would fall "
+        f"{-pressure:.3g} Pa below that of cavitation; {remedy}, move the supply, or change the load"
     )
 
 

@@ -6,11 +6,12 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
-from roughfilm.rom.bearing.free.closed import closed
+from roughfilm.rom.bearing.free.closed import closed, starved
 from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.free.idle import idle_pads, with_wedges
+from roughfilm.rom.bearing.free.unbalanced import remedy, unbalanced
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
-from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
 from roughfilm.rom.cavitation.motion.march import held
@@ -28,11 +29,14 @@ LAST_STEP = 1e6
 MAX_STEPS = 200
 """Largest number of time steps."""
 
+MAX_RESTARTS = 8
+"""Largest number of times that pads which carry no load are tilted anew on the way to an equilibrium."""
+
 HOLDING = 1e-6
 """Stiffness that holds a shaft at its place before a step, over the load per clearance."""
 
 ALIGNING = 1e-7
-"""Stiffness that aligns pads with the shaft, over the load per clearance."""
+"""Stiffness that aligns pads with the shaft, over η u B (R/c)² per clearance; at rest over the load per clearance."""
 
 MAX_MOVE = 0.25
 """Largest move of a shaft or of the edge of a pad in a step, over the clearance and its distance."""
@@ -54,18 +58,20 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     """The film at which the load of the scene and the force of the film balance.
 
     It is the end of a motion without mass by backward Euler steps, each ``GROWTH`` times as long as the one before.
-    From a start that is near enough, the first step is that of a steady film.
+    From a start that is near enough, the first step is that of a steady film. If tilting pads have two equilibria, it
+    is the one in which fewer pads are idle.
 
     Parameters
     ----------
-    start : a film near the equilibrium; without one the shaft starts at rest in its middle.
+    start : a film near the equilibrium; without one, or if its walls meet between the nodes of a coarser grid, the
+        shaft starts at rest in its middle.
     tolerance : residual at which a film is solved.
     load : the load on each coordinate, N; by default that of the scene.
 
     Raises
     ------
     InputError
-        If nothing supplies the film, it closes, or the shaft leaves its bore.
+        If nothing supplies the film, it closes, the shaft leaves its bore, or the film starves a supply in equilibrium.
     ConvergenceError
         If the motion does not settle.
     """
@@ -77,6 +83,10 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
             "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
         )
     force = film.load if load is None else load
+    if (reason := unbalanced(film, force)) is not None:
+        raise reason
+    if start is not None and solved.room(start.place) <= 0:
+        start = None
     if start is not None:
         near, last = start, MAX_MOVE
         while last > SETTLED:
@@ -84,25 +94,82 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
                 instant = _moved(film, near, force, 0.0, tolerance)
             except (ConvergenceError, FloatingPointError):
                 break
+            if starved(film, instant) is not None:
+                break
             move = _move(film, near, instant)
             if move > last:
                 break
             near, last = instant, min(move, 0.5 * last)
         else:
-            return near
+            if closed(film, near, force) is None:
+                return _with_loaded_pads(film, near, force, tolerance)
     if start is None:
         start = film.first(film.wall.place)
         constant = unchanging(solved.problem)
         if constant != solved.problem and film.free.any():
             simple = replace(film, solved=replace(solved, problem=constant))
             start = _settling(simple, start, force, tolerance)
-    return _settling(film, start, force, tolerance)
+    try:
+        end = _settling(film, start, force, tolerance)
+    except (InputError, ConvergenceError):
+        if (first := _without_suction(film, force, tolerance)) is None:
+            raise
+        end = _settling(film, first, force, tolerance, restarts=0)
+    return _with_loaded_pads(film, end, force, tolerance)
 
 
-def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) -> Instant:
+def _without_suction(film: FreeFilm, force: Array, tolerance: float) -> Instant | None:
+    """A film at the equilibrium of tilting pads with cavities at ambient pressure, if all pads carry load there.
+
+    Idle pads may be drawn onto the shaft on the way, while at the end no film of a pad cavitates much.
+    """
+    solved, geometry, suction = film.solved, film.scene.geometry, film.solved.ambient
+    if suction <= 0 or not isinstance(geometry, Lobes) or not film.free[film.wall.turns].any():
+        return None
+    ends = solved.problem.ends
+    inlet = None if ends.inlet is None else ends.inlet - suction
+    sides = None if ends.sides is None else (ends.sides[0] - suction, ends.sides[1] - suction)
+    problem = replace(
+        solved.problem, ends=replace(ends, inlet=inlet, outlet=max(ends.outlet - suction, 0.0), sides=sides)
+    )
+    inflows = tuple(replace(one, pressure=one.pressure - suction) for one in solved.inflows)
+    scene = film.scene.model_copy(
+        update={"lubricant": film.scene.lubricant.model_copy(update={"cavitation_pressure": 0.0})}
+    )
+    at_ambient = replace(
+        film,
+        scene=scene,
+        whole=replace(film.whole, inflows=inflows, ambient=0.0),
+        solved=replace(solved, problem=problem, inflows=inflows, ambient=0.0),
+    )
+    try:
+        found = equilibrium(at_ambient, None, tolerance=tolerance, load=force)
+    except (InputError, ConvergenceError):
+        return None
+    return None if idle_pads(at_ambient, found) else film.first(found.place)
+
+
+def _with_loaded_pads(film: FreeFilm, instant: Instant, force: Array, tolerance: float) -> Instant:
+    """The equilibrium in which fewer pads are idle than at another one, if there is one; else that one."""
+    while idle := idle_pads(film, instant):
+        start = with_wedges(film, instant, idle, tolerance=tolerance)
+        if start is None:
+            break
+        try:
+            other = _settling(film, start, force, tolerance)
+        except (InputError, ConvergenceError):
+            break
+        if len(idle_pads(film, other)) >= len(idle):
+            break
+        instant = other
+    return instant
+
+
+def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, restarts: int = MAX_RESTARTS) -> Instant:
     """The end of the motion without mass from a film.
 
     At rest the last step may be a long one: nothing determines how far the cavities of a steady film would be filled.
+    Where a pad that carries no load closes on the way, the motion goes on from a tilt at which it carries one.
     """
     solved, count, speed = film.solved, force.size, film.solved.problem.speed
     time, shaft = 1 / _rate(film), isinstance(film.scene.geometry, Shaft)
@@ -114,7 +181,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) ->
         free=np.zeros(count, dtype=bool),
         storage=(0.0, 0.0) if speed or not film.free.any() else (1 / time, held(solved, start) / time),
     )
-    instant = settled(solved, start, given, tolerance=tolerance)
+    instant = settled(solved, start, given, tolerance=tolerance, starved=bool(film.free.any()))
     if not film.free.any():
         return instant
     for _ in range(MAX_STEPS):
@@ -134,8 +201,14 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) ->
             continue
         instant = following
         if (reason := closed(film, instant, force)) is not None:
-            raise reason
+            idle = idle_pads(film, instant) if restarts else []
+            wedges = with_wedges(film, instant, idle, tolerance=tolerance) if idle else None
+            if wedges is None or solved.room(wedges.place) <= solved.room(instant.place):
+                raise reason
+            return _settling(film, wedges, force, tolerance, restarts - 1)
         if last and move <= SETTLED:
+            if (reason := starved(film, instant)) is not None:
+                raise reason
             return instant
         if shaft and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]:
             raise _leaves(force)
@@ -143,9 +216,11 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float) ->
     unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
     if shaft and unresisted:
         raise _leaves(force)
-    other = "another pivot" if isinstance(film.scene.geometry, Tilting) else "another load"
+    idle, other = idle_pads(film, instant), remedy(film.scene)
+    if idle and film.scene.lubricant.cavitation_pressure < 0:
+        other += f", or cavitation at ambient pressure, since suction acts on pad {idle[0] + 1}, which carries no load"
     raise ConvergenceError(
-        f"load: the motion towards the equilibrium does not settle; take more cells, or {other}",
+        f"load: the motion towards the equilibrium does not settle; {other}",
         outcome=Outcome.STALLED,
         iterations=MAX_STEPS,
     )
@@ -162,7 +237,7 @@ def _moved(film: FreeFilm, instant: Instant, force: Array, rate: float, toleranc
         free=film.free,
         storage=storage,
     )
-    return settled(solved, instant, drive, tolerance=tolerance)
+    return settled(solved, instant, drive, tolerance=tolerance, starved=True)
 
 
 def _move(film: FreeFilm, instant: Instant, following: Instant) -> float:
@@ -197,7 +272,7 @@ def holding(film: FreeFilm, force: Array) -> Array:
     film is symmetric about the pivot but for the term -(e_t + R δ) sin(θ - θ_p) with e_t = e_y cos θ_p - e_x sin θ_p.
     The stiffness opposes e_t + R δ by a moment on the pad, and by no force on the shaft, so that a pad that carries no
     load rests at the tilt nearest to alignment at which its film carries nothing. It changes moments of pads that carry
-    load by about ``ALIGNING``.
+    load by about ``ALIGNING``, of pads far from a heavily loaded shaft too.
     """
     geometry, unit = film.scene.geometry, film.wall.unit
     stiffness = np.zeros((unit.size, unit.size))
@@ -206,7 +281,7 @@ def holding(film: FreeFilm, force: Array) -> Array:
             tangent = np.zeros(unit.size)
             tangent[:2], tangent[2 + pad] = (-np.sin(angle), np.cos(angle)), geometry.radius
             stiffness[2 + pad] = geometry.radius * tangent
-    return np.asarray(ALIGNING * _load_scale(film, force) / unit[0] * stiffness)
+    return np.asarray(ALIGNING * (_sliding_scale(film) or _load_scale(film, force)) / unit[0] * stiffness)
 
 
 def _held(film: FreeFilm, force: Array) -> Array:
@@ -222,12 +297,17 @@ def _held(film: FreeFilm, force: Array) -> Array:
 
 def _load_scale(film: FreeFilm, force: Array) -> float:
     """The load of a shaft, or η u B (R/c)² if that is larger, N."""
-    scene, unit = film.scene, film.wall.unit
-    if not isinstance(scene.geometry, Shaft):
+    return max(float(np.abs(force).max()), _sliding_scale(film)) if isinstance(film.scene.geometry, Shaft) else 0.0
+
+
+def _sliding_scale(film: FreeFilm) -> float:
+    """η u B (R/c)² of a shaft, N; 0 of other bearings."""
+    scene, geometry = film.scene, film.scene.geometry
+    if not isinstance(geometry, Shaft):
         return 0.0
-    width = 1.0 if film.whole.problem.shape.wide else scene.geometry.width or 1.0
-    sliding = scene.lubricant.viscosity * abs(scene.motion.speed) * width * (scene.geometry.radius / unit[0]) ** 2
-    return float(max(np.abs(force).max(), sliding))
+    width = 1.0 if film.whole.problem.shape.wide else geometry.width or 1.0
+    across = float(geometry.radius / film.wall.unit[0])
+    return scene.lubricant.viscosity * abs(scene.motion.speed) * width * across**2
 
 
 def refined(coarse: FreeFilm, instant: Instant, fine: FreeFilm) -> Instant:

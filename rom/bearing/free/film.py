@@ -69,6 +69,11 @@ class FreeFilm:
         line = self.whole.problem.shape.wide
         return load_of_scene(self.scene)[: self.wall.place.size] / ((self.scene.geometry.width or 1.0) if line else 1.0)
 
+    @cached_property
+    def reversed(self) -> "FreeFilm":
+        """The film mirrored in x, for a wall that slides in the other direction at the same speed."""
+        return replace(self, whole=self.whole.mirrored, solved=self.solved.mirrored, turned=not self.turned)
+
     def first(self, place: Array) -> Instant:
         """A full film at given coordinates, from which an iteration starts."""
         return full_film(self.solved, place)

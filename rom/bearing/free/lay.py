@@ -51,11 +51,13 @@ def straight(problem: Problem, rms: float) -> Problem:
     Raises
     ------
     InputError
-        If the lay is oblique: the cross flow at a mean gap of 3 rms heights is above ``MAX_OBLIQUE``.
+        If the lay is oblique: the cross flow at a mean gap of 3 rms heights, or at the smallest one whose flow factors
+        are known if that is larger, is above ``MAX_OBLIQUE``.
     """
     factors = problem.shape.roughness
     assert factors is not None
-    size = float(oblique(factors(np.array([JUDGED_GAP * rms])))[0])
+    known = getattr(factors, "narrowest", 0.0)
+    size = float(oblique(factors(np.array([max(JUDGED_GAP * rms, known)])))[0])
     if size > MAX_OBLIQUE:
         raise InputError(
             f"roughness: got an oblique lay, whose cross flow is {size:.2g} times the flow along it, for walls that "

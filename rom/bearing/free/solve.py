@@ -1,5 +1,6 @@
 """The steady film of a bearing whose wall moves freely, on successively finer grids."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -19,20 +20,29 @@ from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
 from roughfilm.rom.cavitation.motion.march import held
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import Level, Solution, coarsening
+from roughfilm.rom.cavitation.solve import FIRST_COARSENING, Level, Solution
 from roughfilm.rom.ladder.model import Progress, silent
 
 GRIDS = 4
 """Largest number of grids, the coarser ones for the uncertainty."""
 
+LEAST_GRIDS = 3
+"""Smallest number of grids: the values on two of them may agree by chance, and do not show an order."""
+
 MIN_CELLS = 24
-"""Smallest number of cells along the film of a coarser grid; one grid is coarser in any case."""
+"""Smallest number of cells along the film of the grids beyond these."""
+
+COARSEST_CELLS = 6
+"""Smallest number of cells along the film of any coarser grid."""
 
 ACROSS = 2
 """Cells along the film over those across it."""
 
 RATE_AT_REST = 1e-6
 """Rate of a slow motion, 1/s, in place of a steady film at rest, whose cavities no flow determines."""
+
+ECCENTRICITIES = ("eccentricity", "eccentricity_x", "eccentricity_y")
+"""Quantities of the place of a shaft over the clearance."""
 
 COARSE_CELLS = 48
 """Number of cells along the film on which the expected film is sought."""
@@ -68,6 +78,28 @@ class FreeSolution:
         """The relative net force on the wall on the finest grid; None where no coordinate is free."""
         return self.instants[0].force_residual if self.films[0].free.any() else None
 
+    @property
+    def apart(self) -> dict[str, float]:
+        """The differences between the finest two grids of quantities of the place, from the motion of the whole wall.
+
+        That of a single one, such as the least film or a coordinate, may be small by chance while the wall moves along
+        the film. The least film is taken to change by the largest relative change of the film anywhere.
+        """
+        if len(self.films) < 2 or not self.films[0].free.any():
+            return {}
+        film, instant = self.films[0], self.instants[0]
+        moved = self.instants[1].place - instant.place
+        change = max(film.solved.closing(instant.place, sign * moved) for sign in (-1.0, 1.0))
+        found = {"film_min": change * float(instant.faces.thickness.min())}
+        if isinstance(film.scene.geometry, Lobes):
+            shift, size = (float(np.hypot(*place[:2])) for place in (moved, instant.place))
+            found |= dict.fromkeys(ECCENTRICITIES, shift / float(film.wall.unit[0]))
+            turned = shift / size if size else math.inf
+            found["attitude_angle"] = math.degrees(turned)
+            if film.scene.geometry.lobes == 1 and not any(film.scene.geometry.misalignment):
+                found |= {"film_min_angle": math.degrees(turned), "film_min_x": film.scene.geometry.radius * turned}
+        return found
+
 
 def placed(film: FreeFilm, instant: Instant) -> Bearing:
     """The scene with its wall at the coordinates of an instant."""
@@ -76,10 +108,14 @@ def placed(film: FreeFilm, instant: Instant) -> Bearing:
 
 
 def sizes(cells: int) -> list[tuple[int, int]]:
-    """Cells along and across the film from the coarsest to the finest grid."""
-    along = [size for size, _ in coarsening((cells, 1), wide=True)][-GRIDS:]
-    kept = [size for size in along if size >= MIN_CELLS]
-    return [(size, max(2, round(size / ACROSS))) for size in (kept if len(kept) > 1 else along[-2:])]
+    """Cells along and across the film from the coarsest to the finest grid, which have few nodes in common."""
+    along = [cells]
+    while len(along) < GRIDS:
+        coarser = 2 * round(FIRST_COARSENING * along[-1] / 2)
+        if coarser < (COARSEST_CELLS if len(along) < LEAST_GRIDS else MIN_CELLS):
+            break
+        along.append(coarser)
+    return [(size, max(2, round(size / ACROSS))) for size in reversed(along)]
 
 
 def solve_free(

@@ -24,7 +24,7 @@ def wall_of(scene: Bearing, film: float | None = None) -> RigidWall:
     """
     geometry = scene.geometry
     if isinstance(geometry, Journal):
-        raise InputError("geometry.shape: got 'journal', whose shaft has no coordinates; take shape = 'lobes'")
+        raise InputError("geometry.shape: got 'journal', whose load has no direction; take shape = 'lobes'")
     if film is None:
         film = geometry.film if geometry.film is not None else expected_scene(scene).geometry.thinnest
     return RigidWall(

@@ -88,9 +88,11 @@ class Lobes(Shaft, MovingWall):
         if self.tilts is not None and (self.pivot is None or len(self.tilts) != self.lobes):
             raise ValueError(f"tilts: got {len(self.tilts)}; give one for each of the lobes, which need a pivot")
         if self.eccentricity is not None and self.least_film <= 0:
+            reached = f"reaches {-self.least_film:.3g} m into" if self.least_film < 0 else "touches"
+            others = {"preload": self.preload, "misalignment": any(self.misalignment), "tilts": any(self.tilts or ())}
+            lower = " or the ".join(["it", *(name for name, given in others.items() if given)])
             raise ValueError(
-                f"eccentricity: got {list(self.eccentricity)}; the shaft reaches {-self.least_film:.3g} m into the "
-                "bore; lower it, the preload or the misalignment"
+                f"eccentricity: got {list(self.eccentricity)}; the shaft {reached} the bore; lower {lower}"
             )
         return self
 

@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.entries import InUnit, Length, Part, plain_number
+from roughfilm.contact.foundation.entries import Coordinate, InUnit, Length, Part, plain_number
 from roughfilm.rom.bearing.geometry.pad import known_film
 from roughfilm.rom.cavitation.shape import Shape
 
@@ -107,7 +107,7 @@ class Sector(Ring):
     Attributes
     ----------
     angle : angle of the pad, rad.
-    rise : film thickness at the inlet minus that on the land, m.
+    rise : film thickness at the inlet minus that on the land, m; 0 for a flat pad, as a ring that is squeezed.
     taper : fraction of the angle over which the film narrows.
     joined : whether the pads are joined without a groove between them.
     pads : number of equal pads of the whole bearing; by default those that fill the ring if they are joined, and
@@ -116,7 +116,7 @@ class Sector(Ring):
 
     shape: Literal["sector"]
     angle: Angle
-    rise: Length
+    rise: Coordinate
     taper: Annotated[float, BeforeValidator(plain_number), Field(gt=0, le=1)] = 1.0
     joined: Annotated[bool, Field(strict=True)] = False
     pads: Annotated[int, Field(strict=True, ge=1, le=10_000)] | None = None
@@ -131,6 +131,8 @@ class Sector(Ring):
                 f"pads: got {self.pads!r}; at most {fitting} pads of {self.angle!r} rad fit into a ring; reduce one of "
                 "the two"
             )
+        if self.rise < 0:
+            raise ValueError(f"rise: got {self.rise!r} m; it must be 0 or more")
         if self.rise > self.outer_radius:
             raise ValueError(f"rise: got {self.rise!r} m, more than the outer radius; check the units")
         return self

@@ -12,10 +12,10 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
 from roughfilm.rom.bearing.free.walls import wall_of
-from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.lobes import DOWN, Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector, Tilting
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
+from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.march.rough_walls import Walls
 from roughfilm.rom.bearing.moving.body import Body, Start
 from roughfilm.rom.bearing.moving.over_time import Curve
@@ -203,8 +203,17 @@ class Duty:
         elif "film" in curves:
             place[0] = curves["film"](time)
         elif self.approach:
-            place[0] = film.wall.place[0] - self.approach * (time - self.begin)
+            place += (time - self.begin) * self.closing(place.size)
         return place
+
+    def closing(self, count: int) -> Array:
+        """The velocity of the coordinates by which the walls approach each other, m/s; of a shaft from its inlet."""
+        velocity, geometry = np.zeros(count), self.scene.geometry
+        if isinstance(geometry, Lobes):
+            velocity[:2] = self.approach * math.cos(geometry.first), self.approach * math.sin(geometry.first)
+        else:
+            velocity[0] = -self.approach
+        return velocity
 
     def free(self, film: FreeFilm) -> NDArray[np.bool_]:
         """Whether each coordinate moves as its forces make it move."""
@@ -236,6 +245,13 @@ class Duty:
             lengths.append(2 * math.pi / fastest / STEPS_PER_TURN)
         return min(lengths)
 
+    @property
+    def reverses(self) -> bool:
+        """Whether the speed changes its sign."""
+        table = self.scene.motion.over_time
+        speeds = None if table is None else table.table.columns.get("speed")
+        return speeds is not None and float(speeds.min()) < 0 < float(speeds.max())
+
     @cached_property
     def fastest_rate(self) -> float:
         """The largest rotational speed of the shaft, or 2π times the rate at which the wall passes the film, rad/s."""
@@ -263,8 +279,13 @@ def refuse_unsupported(duty: Duty) -> None:
     scene = duty.scene
     if scene.boundary.inlet.ram_factor and "speed" in duty.curves:
         raise InputError("boundary.inlet.ram_factor: got one with a speed over time; give the pressure of the inlet")
-    if isinstance(scene.geometry, Journal):
-        wall_of(scene)
+    geometry, ends = scene.geometry, scene.ends
+    joined = (isinstance(geometry, Lobes) and not geometry.single) or (isinstance(geometry, Ring) and geometry.endless)
+    if duty.reverses and not joined and ends.inlet not in (None, ends.outlet):
+        raise InputError(
+            f"boundary.inlet: got {scene.inlet_pressure!r} Pa, but the outlet has another pressure; with a speed that "
+            "changes its sign the two ends change places, give both the same pressure"
+        )
     if duty.approach and not duty.given_path:
         raise InputError("motion.approach: got one beside a load; give one of the two")
     if duty.approach and scene.geometry.film is None:
@@ -323,7 +344,7 @@ def course_of(duty: Duty, film: FreeFilm) -> Course:
     return Course(
         free=duty.free(film),
         place=lambda time: duty.place(time, film),
-        speed=lambda time: abs(duty.speed(time)),
+        speed=lambda time: (-1 if film.turned else 1) * duty.speed(time),
         force=lambda time: duty.force(time)[:count],
         mass=mass,
         stiffness=np.zeros((count, count)),
@@ -368,7 +389,7 @@ def started(duty: Duty, film: FreeFilm, *, tolerance: float) -> Moving:
     if start.velocity is not None:
         velocity[: len(start.velocity)] = start.velocity
     elif duty.approach:
-        velocity[0] = -duty.approach
+        velocity = duty.closing(count)
     free, load = duty.free(film), duty.load(begin)[:count]
     given = start.eccentricity is not None or start.film is not None or (duty.given_path and duty.pivoted is None)
     speed = abs(duty.speed(begin))

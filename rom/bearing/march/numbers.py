@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,7 +72,7 @@ class Observer:
         units["power_loss"] = units["power_sliding"]
         if self._turns:
             units["torque"] = turning
-        units |= dict.fromkeys(self._places, flow)
+        units |= dict.fromkeys(self._places, flow) | dict.fromkeys(self._pressures, "Pa")
         units |= {"volume": volume, "volume_rate": flow, "flow_imbalance": "1"}
         units["cavitated_fraction"] = "1"
         return units | {
@@ -105,8 +106,8 @@ class Observer:
         """The nodes through which lubricant enters, or leaves, by the name of the flow."""
         film, places = self.film.solved, {}
         left = np.ones(film.grid.shape, dtype=bool)
-        for number, nodes in enumerate(film.covered, 1):
-            places[f"supply_flow_{number}"] = nodes & left
+        for name, nodes in zip(self._inflows, film.covered, strict=True):
+            places[f"{name}_flow"] = nodes & left
             left &= ~nodes
         if not film.problem.shape.joined[0]:
             for name, row in (("inlet_flow", 0), ("outlet_flow", -1)):
@@ -121,8 +122,29 @@ class Observer:
                 places[name] = nodes
         return places
 
+    @cached_property
+    def _back(self) -> Self:
+        """The numbers while the wall slides in the direction opposite to that of the film."""
+        return replace(self, film=self.film.reversed)
+
+    @cached_property
+    def _inflows(self) -> tuple[str, ...]:
+        """The names of the inflows: the gaps between lobes, then the supplies of the scene."""
+        supplies = len(self.duty.scene.supply)
+        gaps = len(self.film.solved.inflows) - supplies
+        return tuple(f"{kind}_{number + 1}" for kind, n in (("gap", gaps), ("supply", supplies)) for number in range(n))
+
+    @cached_property
+    def _pressures(self) -> dict[str, NDArray[np.bool_]]:
+        """The nodes of each supply, by the name of its pressure in the film."""
+        nodes = dict(zip(self._inflows, self.film.solved.covered, strict=True))
+        return {f"{name}_pressure": nodes[name] for name in self._inflows if name.startswith("supply")}
+
     def row(self, moving: Moving) -> Array:
         """The numbers of a step, in the order of ``units``."""
+        return (self._back if moving.turned else self)._row(moving)
+
+    def _row(self, moving: Moving) -> Array:
         instant, film, time = moving.instant, self.film.solved, moving.now.time
         wall, speed = self.film.wall, self.duty.speed(time)
         velocity, scale = moving.now.velocity, np.where(wall.turns, 1.0, wall.unit[0])
@@ -138,20 +160,28 @@ class Observer:
         parts = [self._signs * part for part in (force, load, *contact)]
         values += [number for numbers in zip(*parts, strict=True) for number in numbers] + touching
         values += [friction, power, squeeze, power + squeeze, *([torque] if self._turns else []), *flows]
+        lowest = self.duty.scene.lubricant.cavitation_pressure
+        values += [float(instant.state.pressure[nodes].max()) + lowest for nodes in self._pressures.values()]
         cavitated = float(film.grid.areas[instant.kind == CAVITY].sum() / film.grid.areas.sum())
         values += [stored, rate, imbalance, cavitated, moving.step, moving.order, moving.error]
         return np.array([*values, self._residual(instant), instant.force_residual, instant.iterations], dtype=float)
 
-    def fields(self, instant: Instant) -> dict[str, tuple[Array, str]]:
+    def fields(self, moving: Moving) -> dict[str, tuple[Array, str]]:
         """Film thickness, pressure above ambient and density ratio over the whole width, shape (nx, ny)."""
-        solution = self._solution(instant, self.film.solved.problem.speed)
-        lowest, wide = self.duty.scene.lubricant.cavitation_pressure, self.film.widened
-        turn = slice(None, None, -1) if self.film.turned else slice(None)
-        return {
-            "film_thickness": (wide(instant.faces.thickness)[turn], "m"),
-            "pressure": (wide(instant.state.pressure)[turn] + lowest, "Pa"),
-            "density_ratio": (wide(density_ratio(solution))[turn], "1"),
+        instant, at = moving.instant, self._back if moving.turned else self
+        lowest, film = self.duty.scene.lubricant.cavitation_pressure, self.film
+        found = {
+            "film_thickness": (instant.faces.thickness, "m"),
+            "pressure": (instant.state.pressure + lowest, "Pa"),
+            "density_ratio": (density_ratio(at._solution(instant, film.solved.problem.speed)), "1"),
         }
+
+        def placed(values: Array) -> Array:
+            """Values over the whole width in order of the positions of the scene."""
+            values = film.widened(film.solved.turned_round(values) if moving.turned else values)
+            return values[::-1] if film.turned else values
+
+        return {name: (placed(values), unit) for name, (values, unit) in found.items()}
 
     @cached_property
     def grid(self) -> dict[str, tuple[Array, str]]:
@@ -276,7 +306,7 @@ class Observer:
         stored = film.sides * float((areas * film.gap(instant.faces.thickness) * filled).sum())
         rate = film.sides * float((net.storage * filled - net.stored).sum())
         entering = sum(
-            flow if name.startswith(("supply", "inlet")) else -flow
+            flow if name.startswith(("gap", "supply", "inlet")) else -flow
             for name, flow in zip(self._places, flows, strict=True)
         )
         passing = film.sides * float(np.abs(net.couette * filled).sum(axis=1).max())

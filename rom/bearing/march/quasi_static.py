@@ -6,17 +6,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.course import STEPS_PER_TABLE, Duty, course_of, film_at
 from roughfilm.rom.bearing.march.numbers import Observer
 from roughfilm.rom.bearing.march.series import Numerics, run
-from roughfilm.rom.bearing.moving.checks import MOMENTS
-from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
-from roughfilm.rom.cavitation.motion.coupled import Instant
-from roughfilm.rom.ladder.kind import InTime
+from roughfilm.rom.cavitation.motion.coupled import Instant, turned_round
 
 CELLS = (48, 24)
 """Cells along and across of the films."""
@@ -26,11 +23,6 @@ TIMES = 64
 
 RESIDUAL = 1e-9
 """Residual at which a film is solved."""
-
-JUDGED = "load over time: models are judged at the largest load"
-
-MAX_CHANGE = 0.3
-"""Relative change of the least film up to which the linear estimate is stated as a number where a march stops."""
 
 MARCH_CELLS, MARCH_ERROR, MARCH_PERIODS = (32, 16), 4e-3, 2
 """Cells, error of a step, and periods of the march that finds the change, of which the last period counts."""
@@ -63,16 +55,6 @@ class QuasiStatic:
         """The relative change of the least film over time by squeeze, to first order in the rate of change."""
         return float(self.moved.min() / self.film_min.min() - 1)
 
-    def faster(self, within: float, change: float = 0.0) -> float:
-        """The factor of all rates at which the change by squeeze reaches a tolerance; infinite without a change.
-
-        Parameters
-        ----------
-        change : the change by a march, if that is known; the larger of both counts, in proportion to the rates.
-        """
-        larger = max(abs(self.change), abs(change))
-        return within / larger if larger else math.inf
-
 
 def quasi_static(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIMES) -> QuasiStatic:
     """The films in equilibrium with each load of a table over time, and the first-order change by motion.
@@ -87,23 +69,22 @@ def quasi_static(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIM
     ConvergenceError
         If a film does not converge.
     """
-    film, table = film_at(duty, cells), duty.scene.motion.over_time
-    assert table is not None
-    time = np.linspace(duty.begin, duty.begin + (table.period or float(np.ptp(table.table.time))), times + 1)
-    instants = _equilibria(duty, film, time)
-    place = np.array([instant.place for instant in instants])
+    film = film_at(duty, cells)
+    time = times_of(duty, times)
+    found = _equilibria(duty, film, time)
+    place = np.array([instant.place for _, instant in found])
     velocity = np.gradient(place, time, axis=0)
     mass = course_of(duty, film).mass
     motion = []
-    for number, (at, instant) in enumerate(zip(time, instants, strict=True)):
-        found = coefficients(film.solved, instant, speed=abs(duty.speed(at)))
-        forces = found.damping @ velocity[number] + mass @ np.gradient(velocity, time, axis=0)[number]
-        motion.append((forces, np.linalg.lstsq(found.stiffness, -forces, rcond=None)[0]))
+    for number, (placed, instant) in enumerate(found):
+        linear = coefficients(placed.solved, instant, speed=placed.solved.problem.speed)
+        forces = linear.damping @ velocity[number] + mass @ np.gradient(velocity, time, axis=0)[number]
+        motion.append((forces, np.linalg.lstsq(linear.stiffness, -forces, rcond=None)[0]))
     least, moved = [], []
-    for instant, (_, change) in zip(instants, motion, strict=True):
+    for (placed, instant), (_, change) in zip(found, motion, strict=True):
         thickness = instant.faces.thickness
         least.append(float(thickness.min()))
-        moved.append(max(float((thickness + film.solved.at_nodes @ change).min()), 0.0))
+        moved.append(max(float((thickness + placed.solved.at_nodes @ change).min()), 0.0))
     moving = ~film.wall.turns
     loads = np.array([np.linalg.norm(duty.load(at)[: moving.size][moving]) for at in time])
     pulls = np.array([np.linalg.norm(forces[moving]) for forces, _ in motion])
@@ -113,6 +94,13 @@ def quasi_static(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIM
         moved=np.array(moved),
         squeeze_number=float((pulls / loads).max()) if loads.min() > 0 else math.inf,
     )
+
+
+def times_of(duty: Duty, count: int) -> Array:
+    """Times over a table, evenly spaced, ``count`` + 1, s."""
+    table = duty.scene.motion.over_time
+    assert table is not None
+    return np.linspace(duty.begin, duty.begin + (table.period or float(np.ptp(table.table.time))), count + 1)
 
 
 def marched_change(
@@ -146,110 +134,39 @@ def marched_change(
             )
 
     series = run(smooth, Numerics(cells=cells, end=last, error=error, step=step), progress=limited)
-    film, time = film_at(smooth, cells), np.linspace(smooth.begin, smooth.begin + length, times + 1)
-    observer = Observer(duty=smooth, film=film)
-    least = min(observer.least(one.faces.thickness)[0] for one in _equilibria(smooth, film, time))
+    film, time = film_at(smooth, cells), times_of(smooth, times)
+    least = min(
+        Observer(duty=smooth, film=placed).least(one.faces.thickness)[0]
+        for placed, one in _equilibria(smooth, film, time)
+    )
     return float(series["film_min"][series.time >= last - length * (1 + 1e-9)].min() / least - 1)
 
 
-def _equilibria(duty: Duty, film: FreeFilm, time: Array) -> list[Instant]:
-    """The film in equilibrium with the load at each time, each from the one before."""
-    instants: list[Instant] = []
+def _equilibria(duty: Duty, film: FreeFilm, time: Array) -> list[tuple[FreeFilm, Instant]]:
+    """The film in equilibrium with the load at each time, each from the one before, and mirrored if it slides back."""
+    found: list[tuple[FreeFilm, Instant]] = []
     for at in time:
-        placed = _at_speed(film, abs(duty.speed(float(at))))
-        start = instants[-1] if instants else None
+        placed = at_speed(film, duty.speed(float(at)))
+        start = carried_over(*found[-1], placed) if found else None
         load = duty.load(float(at))[: film.wall.place.size]
-        instants.append(equilibrium(placed, start, tolerance=RESIDUAL, load=load))
-    return instants
+        found.append((placed, equilibrium(placed, start, tolerance=RESIDUAL, load=load)))
+    return found
 
 
-def _at_speed(film: FreeFilm, speed: float) -> FreeFilm:
-    """The film at another sliding speed of the same direction, m/s (rad/s)."""
-    of = {name: replace(part.problem, speed=speed) for name, part in (("whole", film.whole), ("solved", film.solved))}
+def at_speed(film: FreeFilm, speed: float) -> FreeFilm:
+    """The film at another sliding speed, m/s (rad/s), mirrored if the wall slides in the other direction."""
+    placed = film.reversed if speed and (speed < 0) != film.turned else film
+    of = {
+        name: replace(part.problem, speed=abs(speed))
+        for name, part in (("whole", placed.whole), ("solved", placed.solved))
+    }
     return replace(
-        film,
-        whole=replace(film.whole, problem=of["whole"]),
-        solved=replace(film.solved, problem=of["solved"]),
+        placed,
+        whole=replace(placed.whole, problem=of["whole"]),
+        solved=replace(placed.solved, problem=of["solved"]),
     )
 
 
-def in_time(scene: Bearing, within: float) -> InTime | None:
-    """What the change of a load over time means for a scene: whether squeeze matters.
-
-    Parameters
-    ----------
-    within : tolerated relative error of the least film.
-    """
-    if not _loaded_over_time(scene):
-        return None
-    duty = Duty(scene=scene)
-    try:
-        found = quasi_static(duty)
-    except (InputError, ConvergenceError) as error:
-        line = f"load over time: not every load has a film in equilibrium ({error}); take roughfilm march"
-        return InTime(lines=(line, JUDGED), entries={"quasi_static": None})
-    try:
-        change, stop = marched_change(duty), None
-    except ConvergenceError as error:
-        change, stop = None, error
-    return _stated(found, change, within, stop)
-
-
-def _stated(found: QuasiStatic, change: float | None, within: float, stop: ConvergenceError | None) -> InTime:
-    """The lines and entries of films in equilibrium and the change by a march; None where it stopped, with why.
-
-    Of a march with too many steps the estimate to first order says whether equilibria are enough.
-    """
-    rate, known = found.faster(within, change or 0.0), change is not None or abs(found.change) <= MAX_CHANGE
-    stated = found.change if change is None else change
-    size = f"by {100 * stated:+.2g} %" if known else f"possibly by more than {100 * MAX_CHANGE:g} %"
-    by = "" if change is not None else f", to first order, as a march on a coarse grid stops ({stop})"
-    number = "" if math.isinf(found.squeeze_number) else f" (squeeze number {found.squeeze_number:.2g})"
-    enough = abs(stated) <= within and (stop is None or stop.outcome is Outcome.UNFINISHED)
-    verdict = (
-        f"films in equilibrium with each load are enough for {100 * within:g} %"
-        if enough
-        else f"films in equilibrium with each load are not enough for {100 * within:g} %, take roughfilm march"
-    )
-    limit = (
-        "at any rate of change"
-        if math.isinf(rate)
-        else f"up to about {max(rate, 1.0):.2g} times the rates of this table"
-        if enough
-        else f"below about {min(rate, 1.0):.2g} times the rates of this table they would be"
-    )
-    return InTime(
-        lines=(
-            f"load over time: squeeze changes the least film {size}{by}{number}",
-            f"load over time: {verdict}; {limit}",
-            JUDGED,
-        ),
-        entries={
-            "quasi_static": {
-                "enough": enough,
-                "change_of_least_film": stated if known else None,
-                "marched": change is not None,
-                "squeeze_number": None if math.isinf(found.squeeze_number) else found.squeeze_number,
-                "largest_rate_factor": None if math.isinf(rate) else rate,
-            }
-        },
-    )
-
-
-def _loaded_over_time(scene: Bearing) -> bool:
-    """Whether the load of a scene changes in time."""
-    table = scene.motion.over_time
-    return table is not None and bool({"load", "load_x", *MOMENTS} & table.table.columns.keys())
-
-
-def steady(scene: Bearing) -> Bearing:
-    """The scene at the time of the largest load of its table, with that load, its direction and the speed then."""
-    if not _loaded_over_time(scene):
-        return scene
-    duty, table = Duty(scene=scene), scene.motion.over_time
-    assert table is not None
-    times = np.linspace(table.table.time[0], table.table.time[-1], 20 * TIMES + 1)
-    at = float(max(times, key=lambda time: float(np.linalg.norm(duty.load(time)[: 2 if duty.lobes else 1]))))
-    radius = scene.turning_radius if not duty.lobes and scene.turning_radius is not None else 1.0
-    motion = scene.motion.model_copy(update={"speed": duty.speed(at) * radius, "over_time": None})
-    return scene.model_copy(update={"load": duty.steady_load(at), "motion": motion, "body": None})
+def carried_over(before: FreeFilm, instant: Instant, film: FreeFilm) -> Instant:
+    """An instant of a film as one of the film at another speed, which may be mirrored."""
+    return instant if before.turned == film.turned else turned_round(before.solved, instant)

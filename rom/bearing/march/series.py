@@ -143,7 +143,7 @@ def run(
         moving = started(duty, film, tolerance=tolerance)
         if duty.body.mass is None:
             moving = replace(moving, following=FIRST_STEP * numerics.step)
-        first = Snapshot(time=moving.now.time, fields=observer.fields(moving.instant))
+        first = Snapshot(time=moving.now.time, fields=observer.fields(moving))
         chunks.append(
             Chunk(
                 rows=observer.row(moving)[None],
@@ -200,7 +200,7 @@ def _chunks(
         for last in steps:
             rows.append(observer.row(last))
             if left and last.now.time >= left[0] * (1 - 1e-12):
-                snapshots.append(Snapshot(time=last.now.time, fields=observer.fields(last.instant)))
+                snapshots.append(Snapshot(time=last.now.time, fields=observer.fields(last)))
                 left = [time for time in left if time > last.now.time * (1 + 1e-12)]
             time = last.now.time
             progress((time - begin) / (numerics.end - begin), f"time {time:.4g} s of {numerics.end:.4g} s")
@@ -234,13 +234,14 @@ def saved(moving: Moving) -> dict[str, Array]:
         "past_place": np.array([known.place for known in past]),
         "past_velocity": np.array([known.velocity for known in past]),
         "past_held": np.array([known.held for known in past]),
-        "steps": np.array([moving.step, moving.following, moving.order, moving.error]),
+        "steps": np.array([moving.step, moving.following, moving.order, moving.error, moving.turned]),
     }
 
 
 def moving_of(film: FreeFilm, state: Saved) -> Moving:
     """The film from which a march goes on, from what :func:`saved` gives."""
-    first = film.first(state["place"])
+    step, following, order, error, turned = (float(number) for number in state["steps"])
+    first = (film.reversed if turned else film).first(state["place"])
     instant = replace(
         first,
         pressures=state["pressures"][:-1],
@@ -253,5 +254,12 @@ def moving_of(film: FreeFilm, state: Saved) -> Moving:
             *(state[f"past_{name}"] for name in ("time", "place", "velocity", "held")), strict=True
         )
     )
-    step, following, order, error = (float(number) for number in state["steps"])
-    return Moving(instant=instant, past=past, step=step, following=following, order=int(order), error=error)
+    return Moving(
+        instant=instant,
+        past=past,
+        step=step,
+        following=following,
+        order=int(order),
+        error=error,
+        turned=bool(turned),
+    )

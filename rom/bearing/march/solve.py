@@ -1,7 +1,7 @@
 """A march of a bearing with its answer, the uncertainty of the answer, and a file from which it goes on."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,7 +12,9 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.ranges import in_range, whole_in_range
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.geometry.open_bore import OpenBore
 from roughfilm.rom.bearing.march.course import Duty, film_at, refuse_unsupported
+from roughfilm.rom.bearing.march.journals import with_coordinates
 from roughfilm.rom.bearing.march.rough_walls import walls_of
 from roughfilm.rom.bearing.march.series import Numerics, Series, run
 from roughfilm.rom.bearing.march.store import finish, keeper, kept
@@ -38,11 +40,15 @@ MAX_STEPS = 1_000_000
 MAX_FIELDS = 1000
 """Largest number of times at which fields are kept."""
 
-COARSER_ERROR = 4.0
-"""Error of a step of the march that shows the error by the time steps, over that of the march."""
+COARSER_ERROR, FINER_ERROR = 4.0, 0.25
+"""Error of a step of the march that shows the error by the time steps, over that of the march; the second one is taken
+if the first march stops."""
+
+COARSENINGS = {"coarse": FIRST_COARSENING, "finer": 0.8}
+"""Cells of the coarse grid over those of the march; the second one is taken if a march on the first one stops."""
 
 GRID_SAFETY = 4.0
-"""Uncertainty by the grid over the difference to the coarse grid."""
+"""Uncertainty by the grid over the difference to the first coarse grid."""
 
 TIME_SAFETY = 2.0
 """Uncertainty by the time steps over the difference of two errors of a step, on the coarse grid."""
@@ -50,12 +56,15 @@ TIME_SAFETY = 2.0
 PATH_SAFETY = 1.0
 """Least uncertainty of the extremes of a path over its differences to those of the other marches."""
 
+FLOW_SAFETY = 0.2
+"""Least uncertainty of a mean flow over the largest one of the flows, which balance each other."""
+
 FRICTIONS = frozenset({"friction_mean", "torque_mean", "power_loss_mean"})
 FRICTION_SAFETY = 0.3
 """Least relative uncertainty of these means over the difference of the path."""
 
-PARTS = {"fine": 0.6, "coarse": 0.25, "coarser": 0.15}
-"""The marches, with the part of the work of each."""
+PARTS = {"fine": 0.6, "coarse": 0.25, "steps": 0.15}
+"""The marches, that of the scene, on a coarse grid, and with other steps there, with the part of the work of each."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,6 +74,7 @@ class March:
     Attributes
     ----------
     scene : the bearing.
+    placed : the bearing in the coordinates of its wall; a journal is a full bore with its inlet at ``inlet_angle``.
     numerics : the grid and the time steps.
     series : the numbers of every step, ``march["film_min"]``, and fields at some times.
     first, last : times, s, between which the quantities hold: the last period, or all of the time.
@@ -76,6 +86,7 @@ class March:
     """
 
     scene: Bearing
+    placed: Bearing
     numerics: Numerics
     series: Series
     first: float
@@ -148,6 +159,7 @@ def march_bearing(
     """March a bearing in time, with the uncertainty of its answer.
 
     Two marches on a grid with 0.62 times the cells, of which one has larger steps, show the errors by grid and steps.
+    Where one of them stops, shorter steps or a grid with 0.8 times the cells take its place.
 
     Parameters
     ----------
@@ -166,7 +178,7 @@ def march_bearing(
     ConvergenceError
         If a film becomes too thin, or a step does not converge.
     """
-    duty = Duty(scene=scene)
+    duty = Duty(scene=with_coordinates(scene, cells))
     refuse_unsupported(duty)
     numerics = numerics_of(duty, end=end, error=error, steps=steps, cells=cells, fields=fields)
     entries = scene_entries(scene)
@@ -182,32 +194,32 @@ def march_bearing(
     }
     inputs = Inputs(heights=np.zeros((0, 0)), spacing=(0.0, 0.0), settings=settings)
     shares = PARTS if uncertain else {"fine": 1.0}
-    done = 0.0
+    furthest = 0.0
 
-    def marched(name: str, given: Numerics) -> Series:
+    def report(fraction: float, words: str) -> None:
+        nonlocal furthest
+        furthest = max(furthest, fraction)
+        progress(furthest, words)
+
+    def marched(name: str, given: Numerics, part: str) -> Series:
         known = () if path is None else kept(path, inputs, name)
-        start, part = done, shares[name]
+        start, share = sum(list(shares.values())[: list(shares).index(part)]), shares[part]
         return run(
             duty,
             given,
             known=known,
             keep=(lambda _chunk: None) if path is None else keeper(path, inputs, name, len(known)),
-            progress=lambda fraction, words: progress(start + part * fraction, words),
+            progress=lambda fraction, words: report(start + share * fraction, words),
         )
 
-    series = marched("fine", numerics)
+    series = marched("fine", numerics, "fine")
     summary = summary_of(duty, series)
     quantities, warnings = dict(summary.quantities), _warnings(summary)
-    done = shares["fine"]
     if uncertain:
-        coarse = replace(numerics, cells=(_coarser(cells[0]), _coarser(cells[1])), field_times=())
-        looser = _looser(coarse)
         try:
-            others = [marched("coarse", coarse)]
-            done += shares["coarse"]
-            others.append(marched("coarser", looser))
-        except ConvergenceError as fault:
-            warnings.append(f"no uncertainty: the march on a coarser grid stopped ({fault})")
+            others = _compared(numerics, marched)
+        except (InputError, ConvergenceError) as fault:
+            warnings.append(f"no uncertainty: all marches on coarser grids stopped ({fault})")
         else:
             found = _uncertainties(duty, summary, series, others, cells[0])
             found = _with_walls(duty, summary, found, cells)
@@ -217,8 +229,14 @@ def march_bearing(
                 warnings.append(
                     f"{', '.join(sorted(unknown))}: unknown uncertainty, as the roughness has too few points"
                 )
+    bore, titles = duty.scene.geometry, dict(summary.titles)
+    if isinstance(bore, OpenBore):
+        angle = math.remainder(bore.first + math.pi, 2 * math.pi)
+        quantities["inlet_angle"] = Quantity(value=math.degrees(angle), unit="deg")
+        titles["inlet_angle"] = "angle of the inlet from the x axis"
     march = March(
         scene=scene,
+        placed=duty.scene,
         numerics=numerics,
         series=series,
         first=summary.first,
@@ -226,7 +244,7 @@ def march_bearing(
         state=summary.state,
         settled=summary.settled,
         quantities=quantities,
-        titles=summary.titles,
+        titles=titles,
         warnings=tuple(warnings),
     )
     if path is not None:
@@ -234,22 +252,73 @@ def march_bearing(
     return march
 
 
-def _uncertainties(
-    duty: Duty, summary: Summary, fine: Series, others: list[Series], fine_cells: int
-) -> dict[str, float]:
-    """The uncertainty of each quantity, from a coarser grid, and from that with longer steps too.
+@dataclass(frozen=True, kw_only=True)
+class _Compared:
+    """Two marches to which a march is compared.
+
+    Attributes
+    ----------
+    coarse : that on a coarse grid.
+    steps : that with longer or shorter steps on the same grid.
+    weight : error by the grid over the difference to the coarse grid, relative to that of the first coarse grid.
+    """
+
+    coarse: Series
+    steps: Series
+    weight: float
+
+
+def _compared(numerics: Numerics, marched: Callable[[str, Numerics, str], Series]) -> _Compared:
+    """The marches on the first coarse grid on which they do not stop.
+
+    Parameters
+    ----------
+    marched : marched(name, numerics, part), the march of a name, and the part of the work that it is.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        If the march on the finest of the coarse grids stops.
+    """
+    stopped: InputError | ConvergenceError | None = None
+    for name, ratio in COARSENINGS.items():
+        cells = (_coarser(numerics.cells[0], ratio), _coarser(numerics.cells[1], ratio))
+        given = replace(numerics, cells=cells, field_times=())
+        try:
+            coarse = marched(name, given, "coarse")
+        except (InputError, ConvergenceError) as fault:
+            stopped = fault
+            continue
+        for steps, other in (
+            ("longer", _with_error(given, COARSER_ERROR)),
+            ("shorter", _with_error(given, FINER_ERROR)),
+        ):
+            try:
+                following = marched(f"{name}, {steps} steps", other, "steps")
+            except ConvergenceError as fault:
+                stopped = fault
+                continue
+            weight = (1 / FIRST_COARSENING - 1) / (1 / ratio - 1)
+            return _Compared(coarse=coarse, steps=following, weight=weight)
+    assert stopped is not None
+    raise stopped
+
+
+def _uncertainties(duty: Duty, summary: Summary, fine: Series, others: _Compared, fine_cells: int) -> dict[str, float]:
+    """The uncertainty of each quantity, from a coarser grid, and from that with other steps too.
 
     The difference of two extremes may be small by chance; that of the paths on which they lie bounds it from below, and
-    the edge of a cavity is known to one cell along the film.
+    the edge of a cavity is known to one cell along the film. The means of the flows balance each other, so that each
+    one has a part of the largest of their uncertainties at least.
     """
-    coarse, looser = (summary_of(duty, one).quantities for one in others)
+    coarse, steps = (summary_of(duty, one).quantities for one in (others.coarse, others.steps))
     found = {
-        name: GRID_SAFETY * abs(one.value - coarse[name].value)
-        + TIME_SAFETY * abs(coarse[name].value - looser[name].value)
+        name: GRID_SAFETY * others.weight * abs(one.value - coarse[name].value)
+        + TIME_SAFETY * abs(coarse[name].value - steps[name].value)
         for name, one in summary.quantities.items()
     }
     times = summary.first, summary.last
-    path = apart(duty, fine, others[0], *times) + apart(duty, others[0], others[1], *times)
+    path = others.weight * apart(duty, fine, others.coarse, *times) + apart(duty, others.coarse, others.steps, *times)
     unit = path_unit(duty, fine)
     least = dict.fromkeys(("eccentricity_max", "orbit_width", "orbit_height"), PATH_SAFETY * path)
     least |= {"film_min": PATH_SAFETY * path * unit, "cavitated_fraction_max": 1 / fine_cells}
@@ -260,6 +329,8 @@ def _uncertainties(
     least["pressure_max"] = abs(pressure) * least["film_min"] / film
     for name in FRICTIONS & summary.quantities.keys():
         least[name] = FRICTION_SAFETY * path * abs(summary.quantities[name].value)
+    flows = [name for name in found if "_flow_" in name]
+    least |= dict.fromkeys(flows, FLOW_SAFETY * max((found[name] for name in flows), default=0.0))
     return {name: max(one, least.get(name, 0.0)) for name, one in found.items()}
 
 
@@ -296,15 +367,15 @@ def entries_of(quantities: Mapping[str, Quantity]) -> dict[str, dict[str, float 
     }
 
 
-def _coarser(count: int) -> int:
-    return max(MIN_CELLS // 2, 2 * round(FIRST_COARSENING * count / 2))
+def _coarser(count: int, ratio: float) -> int:
+    return max(MIN_CELLS // 2, 2 * round(ratio * count / 2))
 
 
-def _looser(numerics: Numerics) -> Numerics:
-    """The numerics with a larger error, or with steps twice as long."""
+def _with_error(numerics: Numerics, factor: float) -> Numerics:
+    """The numerics with a multiple of the error; equal steps, of second order, are √factor times as long."""
     if numerics.error is None:
-        return replace(numerics, step=2 * numerics.step)
-    return replace(numerics, error=min(COARSER_ERROR * numerics.error, 1.0))
+        return replace(numerics, step=math.sqrt(factor) * numerics.step)
+    return replace(numerics, error=min(factor * numerics.error, 1.0))
 
 
 def _warnings(summary: Summary) -> list[str]:

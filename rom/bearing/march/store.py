@@ -38,7 +38,7 @@ STATE = {
     "past_place": ("past", "coordinates"),
     "past_velocity": ("past", "coordinates"),
     "past_held": ("past", "nx", "ny"),
-    "steps": (4,),
+    "steps": (5,),
 }
 """The arrays from which a march goes on, with their shapes."""
 

@@ -81,7 +81,10 @@ def summary_of(duty: Duty, series: Series) -> Summary:
         quantities[name] = Quantity(value=float(extreme(series[column][inside])), unit=series.units[column])
         titles[name] = title
     means = {name: title for name, title in MEANS.items() if name in series.units}
-    means |= {name: f"mean flow of {name.replace('_flow_', ' ')}" for name in series.units if name.startswith("supply")}
+    for name in series.units:
+        place, _, kind = name.rpartition("_")
+        if place.startswith(("gap", "supply")):
+            means[name] = f"mean {kind} {'in' if kind == 'pressure' else 'of'} {place.replace('_', ' ')}"
     for name, title in means.items():
         quantities[f"{name}_mean"] = Quantity(value=mean(series, name, first, last), unit=series.units[name])
         titles[f"{name}_mean"] = title
@@ -154,7 +157,8 @@ def _window(duty: Duty, series: Series) -> tuple[float, float, str, bool | None]
     part = LAST_PART * (end - begin)
     if duty.turn is not None and part < duty.turn * (1 - 1e-9):
         turns = (end - begin) / duty.turn
-        return begin, end, f"all of the time, {turns:.2g} turns, too short to show where the motion ends", None
+        count = f"{turns:.2g} turn{'' if f'{turns:.2g}' == '1' else 's'}"
+        return begin, end, f"all of the time, {count}, too short to show where the motion ends", None
     sizes = [_size(places[(time >= end - (n + 1) * part) & (time <= end - n * part)]) for n in (0, 1)]
     first = end - part
     if sizes[0] < AT_REST * (1.0 if duty.lobes else float(places[-1, 0])):

@@ -21,7 +21,7 @@ class Start(Part):
 
     Attributes
     ----------
-    eccentricity : position of a shaft in lobes along x and y over the clearance.
+    eccentricity : position of a shaft along x and y over the clearance.
     film : least film thickness of other bearings, m.
     slopes : slopes along and across the sliding of a pad about a pivot, rad; 0 beside a film.
     velocity : velocity of the shaft along x and y, or at which the walls part, m/s.
@@ -39,7 +39,7 @@ class Body(Part):
     Attributes
     ----------
     mass : mass that the bearing carries, kg; without it the forces balance at all times.
-    unbalance : mass times its distance from the axis, of a shaft in lobes, kg m; at the first time it lies along x.
+    unbalance : mass times its distance from the axis, of a shaft, kg m; at the first time it lies along x.
     inertia : moments of inertia of a pad about the axes along x and y through its pivot, kg m²; a single one is that
         about both. Without them the moments balance at all times.
     start : where a march begins.

@@ -4,6 +4,7 @@ import numpy as np
 
 from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.open_bore import OpenBore
 from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import AnyShape
@@ -11,7 +12,7 @@ from roughfilm.rom.bearing.moving.body import Body, Start
 from roughfilm.rom.bearing.moving.over_time import OverTime
 
 OF_LOBES = frozenset({"angle", "load_x", "load_y", "eccentricity_x", "eccentricity_y"})
-"""Columns that only a shaft in lobes has."""
+"""Columns that only a shaft has."""
 
 MOMENTS = frozenset({"moment_x", "moment_y"})
 """Columns that only a pad about a pivot has."""
@@ -27,13 +28,13 @@ def check_motion(geometry: AnyShape, over_time: OverTime | None, body: Body | No
     if over_time is None and body is None:
         return
     if isinstance(geometry, Journal):
-        table = "motion.over_time" if over_time is not None else "body"
-        raise ValueError(f"{table}: got one for shape = 'journal', whose load has no direction; take shape = 'lobes'")
+        geometry = OpenBore.of(geometry)
     lobes, columns = isinstance(geometry, Lobes), over_time.table.columns.keys() if over_time is not None else set()
     wrong = sorted({"film"} & columns if lobes else OF_LOBES & columns)
     if wrong:
         remedy = "eccentricity_x and eccentricity_y" if lobes else "load or film"
-        raise ValueError(f"motion.over_time.{wrong[0]}: got it for shape = {geometry.shape!r}; give {remedy}")
+        wall = "a shaft" if lobes else f"shape = {geometry.shape!r}"
+        raise ValueError(f"motion.over_time.{wrong[0]}: got it for {wall}; give {remedy}")
     for moment in sorted(MOMENTS & columns):
         _check_moment(geometry, moment)
     turns = isinstance(geometry, Shaft | Ring)
@@ -88,7 +89,7 @@ def _check_body(geometry: AnyShape, body: Body, *, free: bool) -> None:
     if not free and (body.mass is not None or body.unbalance is not None):
         raise ValueError("body: got one that no load acts on; give [load], or loads over time")
     if body.unbalance is not None and not lobes:
-        raise ValueError(f"body.unbalance: got one for shape = {geometry.shape!r}; only a shaft in lobes has one")
+        raise ValueError(f"body.unbalance: got one for shape = {geometry.shape!r}; only a shaft has one")
     if body.inertia is not None and (not isinstance(geometry, Tilting) or geometry.slopes is not None):
         kind = "given slopes" if isinstance(geometry, Tilting) else f"shape = {geometry.shape!r}"
         raise ValueError(f"body.inertia: got one for {kind}; only a pad that tilts about a pivot has one")
@@ -99,7 +100,8 @@ def _check_body(geometry: AnyShape, body: Body, *, free: bool) -> None:
         _check_slopes(geometry, start)
     if (lobes and start.film is not None) or (not lobes and start.eccentricity is not None):
         wrong, right = ("film", "eccentricity") if lobes else ("eccentricity", "film")
-        raise ValueError(f"body.start.{wrong}: got it for shape = {geometry.shape!r}; give {right}")
+        wall = "a shaft" if lobes else f"shape = {geometry.shape!r}"
+        raise ValueError(f"body.start.{wrong}: got it for {wall}; give {right}")
     if start.velocity is not None and len(start.velocity) != (2 if lobes else 1):
         raise ValueError(
             f"body.start.velocity: got {len(start.velocity)} entries; give {'two, along x and y' if lobes else 'one'}"

@@ -67,12 +67,12 @@ class OverTime(Part):
     file : path of a CSV file, in place of the lists.
     digest : digest of the numbers in the file; a file that has changed since is rejected.
     time : times, increasing, s.
-    speed : speed of the sliding wall, m/s; of a wall that turns also a rotational speed.
+    speed : speed of the sliding wall, m/s, which may change its sign; of a wall that turns also a rotational speed.
     load : size of the load, N (N/m of an infinitely wide bearing, in a file).
-    angle : direction of the load on a shaft in lobes, from the x axis towards the y axis, rad.
-    load_x, load_y : components of the load on a shaft in lobes, N, in place of load and angle.
+    angle : direction of the load on a shaft, from the x axis towards the y axis, rad.
+    load_x, load_y : components of the load on a shaft, N, in place of load and angle.
     film : least film thickness, m, which is then given; of a pad about a pivot the film at the pivot.
-    eccentricity_x, eccentricity_y : position of a shaft in lobes over the clearance, which is then given.
+    eccentricity_x, eccentricity_y : position of a shaft over the clearance, which is then given.
     moment_x, moment_y : moments on a pad about a pivot, N m, as those of the load; one that is left out is that of the
         load.
     period : time after which the table repeats, s; without it the table ends with its last row.
@@ -259,8 +259,6 @@ def checked_table(columns: Mapping[str, tuple[str, Sequence[float]]], period: fl
             raise ValueError(
                 f"{name}: got {least!r} in row {row}; it must be {'above 0' if name == 'film' else '0 or more'}"
             )
-        if name == "speed" and least < 0 < max(values):
-            raise ValueError("speed: got both signs; the wall must slide in one direction, give two scenes")
     if {"eccentricity_x", "eccentricity_y"} <= others.keys():
         sizes = [
             math.hypot(*both) for both in zip(others["eccentricity_x"][1], others["eccentricity_y"][1], strict=True)

@@ -333,6 +333,20 @@ def full_film(film: MovingFilm, place: Array) -> Instant:
     )
 
 
+def turned_round(film: MovingFilm, instant: Instant) -> Instant:
+    """An instant of a film as one of the film mirrored in x."""
+    other, turned = film.mirrored, film.turned_round
+    faces = other.faces(instant.place)
+    return replace(
+        instant,
+        state=State(pressure=turned(instant.state.pressure), fill=turned(instant.state.fill)),
+        kind=turned(instant.kind),
+        faces=faces,
+        network=other.network(faces, instant.pressures, speed=other.problem.speed),
+        balance=turned(instant.balance),
+    )
+
+
 def trial_at(film: MovingFilm, instant: Instant, drive: Drive) -> Trial:
     """The unknowns at an instant, not yet evaluated."""
     return Trial(
@@ -347,7 +361,15 @@ def trial_at(film: MovingFilm, instant: Instant, drive: Drive) -> Trial:
 
 
 @finite_arithmetic("motion")
-def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float, limit: int = ITERATIONS) -> Instant:
+def settled(
+    film: MovingFilm,
+    start: Instant,
+    drive: Drive,
+    *,
+    tolerance: float,
+    limit: int = ITERATIONS,
+    starved: bool = False,
+) -> Instant:
     """The instant at which inflow equals outflow at every node and behind every restrictor, and all forces balance.
 
     The unknowns are the pressure or the filling fraction u of every node, and z, the free coordinates and the pressures
@@ -362,11 +384,12 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
     tolerance : residual at which the iteration stops, and sum of all balances over the flow through the film; it is
         larger where the round-off of the volumes over a short time step exceeds it.
     limit : largest number of steps.
+    starved : whether pressures behind restrictors may fall below that of cavitation, as on the way to an equilibrium.
 
     Raises
     ------
     ConvergenceError
-        If the iteration does not converge.
+        If the iteration does not converge, or a film takes in more than a restrictor passes at cavitation pressure.
     """
     trial = trial_at(film, start, drive)
     free, whole, line = np.flatnonzero(drive.free), True, film.grid.shape[1] == 1
@@ -389,7 +412,8 @@ def settled(film: MovingFilm, start: Instant, drive: Drive, *, tolerance: float,
         if not np.isfinite(residual + force_residual):
             break
         if max(residual, imbalance) <= least and force_residual <= FORCE_TOLERANCE and whole:
-            _check_restrictors(trial)
+            if not starved:
+                _check_restrictors(trial)
             return Instant(
                 place=trial.place,
                 pressures=trial.pressures,

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,12 +16,16 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.cavitation.discretise import Faces, faces_of, network, positions
 from roughfilm.rom.cavitation.grid import Grid, quarters
 from roughfilm.rom.cavitation.motion.contact import ContactForce, ContactLaw, contact_force
-from roughfilm.rom.cavitation.network import Network
+from roughfilm.rom.cavitation.network import Network, Values
 from roughfilm.rom.cavitation.problem import Inflow, Problem
 from roughfilm.rom.cavitation.shape import Shape
+from roughfilm.rom.cavitation.solve import mirrored
 
 TINY = float(np.finfo(float).tiny)
 """Distance of walls, m, in place of one that is 0 or less by round-off."""
+
+JOINT = 1e-12
+"""Distance from the end of a periodic film, over its length, up to which a position is at its beginning."""
 
 GAP_STEP = 1e-5
 """Step of the separation for the derivative of the mean gap, over the largest approach."""
@@ -133,7 +138,8 @@ class MovingFilm:
         if self.contact is None:
             return np.ones_like(thickness)
         step = GAP_STEP * (self.contact.touching - self.contact.closest)
-        return np.asarray((self.gap(thickness + step) - self.gap(thickness)) / step)
+        below, above = np.maximum(thickness - step, self.contact.closest), thickness + step
+        return np.asarray((self.gap(above) - self.gap(below)) / (above - below))
 
     def network(
         self,
@@ -167,9 +173,61 @@ class MovingFilm:
         if self.halved:
             inner = slice(None) if net.periodic[0] else slice(1, -1)
             net.fixed[inner, 0] = False
+            if not net.periodic[0]:
+                self._open_middle(net, faces, speed)
         for nodes, pressure in zip(self.covered, pressures, strict=True):
             net.fixed[nodes], net.pressure[nodes] = True, pressure
         return net
+
+    def _open_middle(self, net: Network, faces: Faces, speed: float) -> None:
+        """Give the ends of the line of symmetry the conditions of the inlet and the outlet, in place of the side's."""
+        ends, grid = self.problem.ends, self.grid
+        net.pressure[-1, 0] = ends.outlet
+        if net.supply is None:
+            net.pressure[0, 0] = ends.inlet
+        else:
+            net.fixed[0, 0] = False
+            net.supply[0] = 0.5 * speed * grid.volume_y[0] * grid.radius[0] * ends.theta * faces.thickness[0, 0]
+
+    def turned_round(self, values: Values) -> Values:
+        """Values at the nodes of the film at those of the one mirrored in x, in the first axis."""
+        back = values[::-1]
+        return cast(Values, np.roll(back, 1, axis=0) if self.problem.shape.joined[0] else back.copy())
+
+    @cached_property
+    def mirrored(self) -> "MovingFilm":
+        """The film mirrored in x; its wall slides towards increasing x at the same speed."""
+        breaks, grid, joined = self.problem.shape.breaks, self.grid, self.problem.shape.joined[0]
+        ends, last = breaks[0] + breaks[-1], breaks[-1] - JOINT * self.problem.shape.length
+        x = self.turned_round(ends - grid.x)
+
+        def back(place: Array) -> Array:
+            """The position before, that of the joint of a periodic film at its beginning."""
+            before = ends - place
+            return np.where(before > last, before - self.problem.shape.length, before) if joined else before
+
+        def covers(inflow: Inflow) -> Inflow:
+            return replace(inflow, covers=lambda x, y: inflow.covers(back(x), y))
+
+        def normal(one: Normal) -> Normal:
+            return lambda x, y: one(ends - x, y)
+
+        return replace(
+            self,
+            problem=replace(
+                mirrored(self.problem),
+                speed=abs(self.problem.speed),
+                inflows=tuple(map(covers, self.problem.inflows)),
+            ),
+            grid=replace(
+                grid,
+                x=np.append(breaks[0], x[1:]) if joined else x,
+                spacing_x=grid.spacing_x[::-1] if joined else np.append(grid.spacing_x[-2::-1], 0.0),
+                volume_x=self.turned_round(grid.volume_x),
+            ),
+            normals=tuple(map(normal, self.normals)),
+            inflows=tuple(map(covers, self.inflows)),
+        )
 
     def force(self, pressure: Array) -> Array:
         """∫ (p - p_ambient) ∂h/∂q dA of each coordinate, N (N m of an angle), from p at the nodes, Pa."""

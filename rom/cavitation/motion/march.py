@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.cavitation.balance import FILM
-from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, UnresistedError, settled
+from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, UnresistedError, settled, turned_round
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 
@@ -47,7 +47,7 @@ class Course:
     ----------
     free : whether each coordinate moves as its forces make it move.
     place : place(t), the coordinates that are given, m (rad); free ones have no effect.
-    speed : speed(t) of the sliding wall, m/s, at least 0.
+    speed : speed(t) of the sliding wall, m/s; below 0 towards decreasing x.
     force : force(t) on each coordinate besides that of the film, N (N m).
     mass : mass matrix, kg (kg m²); coordinates without mass move so that their forces balance.
     stiffness : matrix S of forces -S q of springs, N/m.
@@ -89,6 +89,7 @@ class Moving:
     following : the time step that is proposed next, s.
     order : the order of the step.
     error : estimated relative error of the coordinates of the step.
+    turned : whether the wall slides towards decreasing x, so that the film is the mirrored one.
     """
 
     instant: Instant
@@ -97,6 +98,7 @@ class Moving:
     following: float = 0.0
     order: int = 1
     error: float = 0.0
+    turned: bool = False
 
     @property
     def now(self) -> Known:
@@ -137,7 +139,8 @@ def march(
     Steps follow the two-step backward differentiation formula, which is of second order in time and stable for steps of
     any length: ẋ ≈ ((1 + 2r)/(1 + r) x₊ - (1 + r) x + r²/(1 + r) x₋)/Δt with the ratio r of the step to the one before.
     The volume that a film holds changes by what flows in and out, to the tolerance. The first step, and steps that
-    would drain a node below empty, follow backward Euler, of first order.
+    would drain a node below empty, follow backward Euler, of first order. While the wall slides towards decreasing x,
+    the film is that mirrored in x, whose nodes hold the same volumes.
 
     Parameters
     ----------
@@ -157,7 +160,7 @@ def march(
     ------
     InputError
         If the end or the largest step is not finite or not ahead, the error is not positive, or the course gives a
-        speed below 0 or a number that is not finite.
+        number that is not finite.
     ConvergenceError
         If a film becomes thinner than ``closest``, a step does not converge however short it is, or more than
         ``MAX_SHORT_STEPS`` steps in a row are short, as where a film no longer resists the motion of its wall.
@@ -191,13 +194,13 @@ def march(
             size *= min(ratio, 0.7)
             unresisted += isinstance(following, UnresistedError)
             if size < MIN_STEP * largest_step or unresisted > MAX_UNRESISTED:
-                raise _stopped(film, course, moving, closest, following)
+                raise _stopped(film.mirrored if moving.turned else film, course, moving, closest, following)
             continue
         size *= ratio
         moving = replace(following, following=size)
         least = float(moving.instant.faces.thickness.min())
         if least < closest:
-            raise _stopped(film, course, moving, closest, None)
+            raise _stopped(film.mirrored if moving.turned else film, course, moving, closest, None)
         unresisted = 0 if _pressed(moving.instant) else unresisted
         short = short + 1 if moving.step < SHORT_STEP * largest_step else 0
         if short > MAX_SHORT_STEPS:
@@ -216,12 +219,9 @@ def _check_times(begin: float, end: float, largest_step: float, error: float | N
 
 
 def _check_course(time: float, speed: float, place: Array, force: Array) -> None:
-    """Raise InputError for a speed against x or numbers that are not finite."""
-    if not 0 <= speed < math.inf:
-        raise InputError(
-            f"motion.speed: got {speed!r} m/s at the time {time:.6g} s; give a finite speed of at least 0 m/s, and "
-            "mirror the film for one towards decreasing x"
-        )
+    """Raise InputError for numbers that are not finite."""
+    if not math.isfinite(speed):
+        raise InputError(f"motion.speed: got {speed!r} m/s at the time {time:.6g} s; give a finite speed")
     for name, values in (("place", place), ("force", force)):
         if not np.isfinite(values).all():
             raise InputError(f"motion.{name}: got {values.tolist()} at the time {time:.6g} s; give finite numbers")
@@ -316,9 +316,44 @@ def _attempt(
 ) -> Moving | ConvergenceError | None:
     """The film after a time step; the error if it does not converge, None if given walls touch before it."""
     time = moving.now.time + size
-    rate, (place, velocity, volume) = differences(moving.past, size, order)
     speed, given, force = course.speed(time), course.place(time), course.force(time)
     _check_course(time, speed, given, force)
+    back = speed < 0 or (speed == 0 and moving.turned)
+    if back != moving.turned:
+        moving = _turned_round(film.mirrored if moving.turned else film, moving)
+    return _stepped(
+        film.mirrored if back else film,
+        course,
+        moving,
+        size,
+        (abs(speed), given, force),
+        order=order,
+        tolerance=tolerance,
+        longest=longest,
+    )
+
+
+def _turned_round(film: MovingFilm, moving: Moving) -> Moving:
+    """A film at one time of a march as the one mirrored in x."""
+    past = tuple(replace(known, held=film.turned_round(known.held)) for known in moving.past)
+    return replace(moving, instant=turned_round(film, moving.instant), past=past, turned=not moving.turned)
+
+
+def _stepped(
+    film: MovingFilm,
+    course: Course,
+    moving: Moving,
+    size: float,
+    driven: tuple[float, Array, Array],
+    *,
+    order: int,
+    tolerance: float,
+    longest: float,
+) -> Moving | ConvergenceError | None:
+    """The film after a time step, with the speed, the given coordinates and the forces at its end."""
+    speed, given, force = driven
+    time = moving.now.time + size
+    rate, (place, velocity, volume) = differences(moving.past, size, order)
     guess = _guess(film, course, moving, given, size)
     if guess is None:
         return None
@@ -336,7 +371,7 @@ def _attempt(
     except ConvergenceError as error:
         return error
     if order > 1 and instant.state.fill.min() < EMPTY:
-        return _attempt(film, course, moving, size, order=1, tolerance=tolerance, longest=longest)
+        return _stepped(film, course, moving, size, driven, order=1, tolerance=tolerance, longest=longest)
     now = Known(
         time=time,
         place=instant.place,
@@ -344,7 +379,14 @@ def _attempt(
         held=held(film, instant),
     )
     past = (now, *moving.past[:3])
-    return Moving(instant=instant, past=past, step=size, order=order, error=_error(past, course, order, longest))
+    return Moving(
+        instant=instant,
+        past=past,
+        step=size,
+        order=order,
+        error=_error(past, course, order, longest),
+        turned=moving.turned,
+    )
 
 
 def differences(past: tuple[Known, ...], size: float, order: int) -> tuple[float, tuple[Array, Array, Array]]:

@@ -165,7 +165,12 @@ def _tables(bearing: Bearing, curves: Sequence[DynamicCurve]) -> Iterator[Table 
     for curve in curves:
         whirls = "whirl_ratio" in curve.points[0].numbers
         heads = [f"speed, {scale.unit}", "least film, µm"]
-        heads += ["eccentricity", "whirl ratio", "critical mass, kg"] if whirls else ["K, N/µm", "B, kN·s/m"]
+        touching = "contact_share" in curve.points[0].numbers
+        if touching:
+            heads.append("contact, %")
+        elif whirls:
+            heads.append("eccentricity")
+        heads += ["whirl ratio", "critical mass, kg"] if whirls else ["K, N/µm", "B, kN·s/m"]
         yield table_of(
             heads,
             [_row(point, scale.factor, whirls=whirls) for point in _some(bearing, curve)],
@@ -175,9 +180,13 @@ def _tables(bearing: Bearing, curves: Sequence[DynamicCurve]) -> Iterator[Table 
 
 def _row(point: DynamicPoint, factor: float, *, whirls: bool) -> list[str]:
     beginning = [digits(factor * point.speed), number_of(point, "film_min", 1e6)]
+    if "contact_share" in point.numbers:
+        beginning.append(number_of(point, "contact_share", 100.0))
+    elif whirls:
+        beginning.append(number_of(point, "eccentricity"))
     if not whirls:
         return [*beginning, number_of(point, "stiffness", 1e-6), number_of(point, "damping", 1e-3)]
-    return [*beginning, number_of(point, "eccentricity"), whirl_ratio(point), critical_mass(point)]
+    return [*beginning, whirl_ratio(point), critical_mass(point)]
 
 
 def _some(bearing: Bearing, curve: DynamicCurve) -> list[DynamicPoint]:

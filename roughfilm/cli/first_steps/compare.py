@@ -125,7 +125,7 @@ def _finest(runs: Sequence[tuple[Job, Result]]) -> dict[str, Result]:
 
 def _error_table(report: Report) -> Table:
     """The cost and the errors of every model in the compared quantities, cheapest first."""
-    compared = [name for name in report.kind.compared if name in report.results[report.best].quantities]
+    compared = report.kind.shared(report.results[report.best])
     rows = []
     for name, result in report.results.items():
         errors = stated_errors(result)

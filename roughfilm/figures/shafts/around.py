@@ -9,7 +9,7 @@ from scipy.interpolate import InterpolatedUnivariateSpline
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure, svg
-from roughfilm.figures.shafts.angles import GAP_COLOUR, LEAST_COLOUR, LOAD_COLOUR
+from roughfilm.figures.shafts.angles import EDGE_COLOUR, GAP_COLOUR, LEAST_COLOUR, LOAD_COLOUR, SUPPLY_COLOUR
 from roughfilm.figures.view import Style
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.scene import Bearing
@@ -25,15 +25,18 @@ LEAST_ATTITUDE = 5.0
 SHELL = 0.06
 """Thickness of the shell in the drawing over the radius of the shaft."""
 
+LEAST_MOUTH = 0.05
+"""Smallest angle of a supply in the drawing, rad."""
+
 HIGHEST = 0.75
 """Height of the largest pressure in the drawing over the radius of the shaft."""
 
 
 def around(scene: Bearing, results: Mapping[str, Result], reference: str, styles: Mapping[str, Style]) -> str:
-    """The bore and the shaft with an exaggerated clearance, the pressure in the middle of the width, and the load.
+    """The bore and the shaft with an exaggerated clearance, the pressure around them, and the load.
 
-    The film is drawn in proportion to its thickness, by the reference model; the pressure above ambient, in proportion
-    to its magnitude, outside of the shell.
+    All are those of the section through the greatest pressure. The film is drawn in proportion to its thickness, by the
+    reference model; the pressure above ambient, in proportion to its magnitude, outside of the shell.
     """
     figure, axes = new_figure((9.4, 6.6))
     draw(axes, scene, results, reference, styles)
@@ -50,18 +53,22 @@ def draw(
     axes.set(aspect="equal")
     axes.set_axis_off()
     shaft = np.linspace(0, 2 * np.pi, 361)
+    across = float(_section(shown, "y")[0]) - (geometry.width or 0.0) / 2
     moved = np.array([_value(shown, "eccentricity_x"), _value(shown, "eccentricity_y")])
+    moved += np.array(geometry.misalignment) * across / geometry.clearance
     surface = 1 + CLEARANCE * _along(moved, shaft)
     axes.fill(*_places(shaft, surface), facecolor="#deebf7", edgecolor="#08519c", linewidth=1.2)
-    outside = _shell(axes, geometry, shown, moved)
+    outside = _shell(axes, scene, shown, moved)
     scale = scales_of([shown])("pressure_max", "Pa")
-    largest = max(float(_middle(result, "pressure").max()) for result in results.values())
+    largest = max(float(_section(result, "pressure").max()) for result in results.values())
     for name, result in results.items():
         if largest <= 0:
             break
         style = styles.get(name, Style())
-        angle = geometry.angle(_middle(result, "x"))
-        height = outside + HIGHEST * np.maximum(_middle(result, "pressure"), 0) / largest
+        angle = geometry.angle(_section(result, "x"))
+        height = outside + HIGHEST * np.maximum(_section(result, "pressure"), 0) / largest
+        if not geometry.single:
+            angle, height = np.append(angle, angle[0] + 2 * np.pi), np.append(height, height[0])
         if name == reference:
             below = _places(angle[::-1], np.full_like(angle, outside))
             outline = np.concatenate([_places(angle, height), below], axis=1)
@@ -71,9 +78,11 @@ def draw(
     axes.plot([], [], " ", label=f"largest pressure: {scale.number(largest)} {scale.unit}")
 
 
-def _shell(axes: Axes, geometry: Lobes, shown: Result, moved: Array) -> float:
-    """Draw the lobes and their centres; return the radius outside of the shell."""
-    film, x = _middle(shown, "film_thickness"), _middle(shown, "x")
+def _shell(axes: Axes, scene: Bearing, shown: Result, moved: Array) -> float:
+    """Draw the lobes, their centres, pivots and supplies; return the radius outside of the shell."""
+    geometry = scene.geometry
+    assert isinstance(geometry, Lobes)
+    film, x = _section(shown, "film_thickness"), _section(shown, "x")
     angle = geometry.angle(x)
     bore = 1 + CLEARANCE * (film / geometry.clearance + _along(moved, angle))
     arc, cell = geometry.radius * geometry.turn, float(np.diff(x).max())
@@ -92,7 +101,34 @@ def _shell(axes: Axes, geometry: Lobes, shown: Result, moved: Array) -> float:
         if geometry.pivot is not None:
             pivot = np.array([geometry.start + geometry.begins(lobe) + geometry.pivot * geometry.turn])
             axes.plot(*_places(pivot, outside), "^", color="#252525", markersize=6)
+    _supplies(axes, scene, x, bore, outside)
     return outside
+
+
+def _supplies(axes: Axes, scene: Bearing, x: Array, bore: Array, outside: float) -> None:
+    """Draw where the supplies pass the shell, each with its number; one all around lies in the middle of the shell."""
+    geometry = scene.geometry
+    assert isinstance(geometry, Lobes)
+    for number, patch in enumerate(scene.supply_patches, start=1):
+        begin, end = (0.0, geometry.length) if patch.x is None else patch.x
+        spare = max(0.0, LEAST_MOUTH * geometry.radius - (end - begin)) / 2
+        along = np.linspace(begin - spare, end + spare, 73)
+        inner = np.interp(along, x, bore, period=None if geometry.single else geometry.length)
+        angle, outer = geometry.angle(along), np.full_like(along, outside)
+        if patch.x is None:
+            inner, outer = inner + 0.35 * (outer - inner), inner + 0.65 * (outer - inner)
+        outline = np.concatenate([_places(angle, inner), _places(angle[::-1], outer[::-1])], axis=1)
+        label, edge = "supply" if number == 1 else None, 0.0 if patch.x is None else 0.8
+        axes.fill(*outline, facecolor=SUPPLY_COLOUR, label=label, edgecolor=EDGE_COLOUR, linewidth=edge)
+        middle = np.array([angle[angle.size // 2]]) if patch.x is not None else np.array([np.pi])
+        axes.annotate(
+            f"{number}",
+            xy=tuple(_places(middle, (inner[angle.size // 2] + outside) / 2)[:, 0]),
+            ha="center",
+            va="center",
+            fontsize=7,
+            color=EDGE_COLOUR,
+        )
 
 
 def _marks(axes: Axes, scene: Bearing, shown: Result, moved: Array, outside: float) -> None:
@@ -172,10 +208,11 @@ def _along(moved: Array, angle: Array) -> Array:
     return np.asarray(moved[0] * np.cos(angle) + moved[1] * np.sin(angle))
 
 
-def _middle(result: Result, field: str) -> Array:
-    """A field in the middle of the width."""
-    values = result.fields[field].values
-    return np.asarray(values[:, values.shape[1] // 2])
+def _section(result: Result, field: str) -> Array:
+    """A field on the line of the greatest pressure, or in the middle of a width without pressure."""
+    largest, values = result.fields["pressure"].values.max(axis=0), result.fields[field].values
+    row = int(np.argmax(largest)) if largest.max() > 0 else largest.size // 2
+    return np.asarray(values[:, row])
 
 
 def _value(result: Result, name: str) -> float:

@@ -11,16 +11,21 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import MAX_PIXELS, new_figure, svg
 from roughfilm.figures.differences import Differences, differences, on_points
-from roughfilm.figures.shafts.angles import LEAST_COLOUR, Along, along_of
+from roughfilm.figures.shafts.angles import EDGE_COLOUR, GAP_COLOUR, LEAST_COLOUR, Along, along_of
 from roughfilm.figures.shafts.around import around
 from roughfilm.figures.view import Plot, Style, View, groups_by
 from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.supply.tables import MAX_SUPPLIES
 from roughfilm.rom.ladder.result import Result
 from roughfilm.words.scales import Scale, scales_of
 
 MAX_COLUMNS = 4
 """Largest number of models whose differences stand beside each other."""
+
+EVEN_DENSITY = 0.12
+"""Range of densities below which a film is drawn as whole."""
 
 STYLES = {
     "reynolds": Style(colour="#7f7f7f", line="--", marker="s"),
@@ -43,7 +48,7 @@ def along(scene: Bearing, results: Mapping[str, Result], reference: str) -> str:
     Under a load each model has a film of its own.
     """
     figure, (film, pressure, density) = new_figure((9, 6.8), 3, 1, sharex=True, height_ratios=(1, 2.2, 1.5))
-    axis, scales = along_of(scene, results), scales_of([results[reference]])
+    axis, scales = along_of(scene), scales_of([results[reference]])
     of_film, of_pressure = scales("film_min", "m"), scales("pressure_max", "Pa")
     for number, (name, result) in enumerate(results.items()):
         style = STYLES.get(name, Style())
@@ -64,11 +69,21 @@ def along(scene: Bearing, results: Mapping[str, Result], reference: str) -> str:
         density.plot(x, theta, **look)
     lowest = scene.lubricant.cavitation_pressure / of_pressure.factor
     pressure.axhline(lowest, color="black", linewidth=0.8, linestyle=(0, (1, 2)), label="cavitation pressure")
-    film.set(ylim=(0, None), ylabel=of_film.label("film thickness"))
+    film.set(ylim=(0, 1.08 * film.get_ylim()[1]), ylabel=of_film.label("film thickness"))
     pressure.set_ylabel(of_pressure.label("pressure\nabove ambient"))
     density.set(ylabel="relative density θ\n(filled fraction)", xlabel=axis.label)
+    if np.ptp(density.get_ylim()) < EVEN_DENSITY:  # a film that is whole everywhere is to look so
+        density.set_ylim(1 - EVEN_DENSITY, 1 + EVEN_DENSITY / 4)
+    if isinstance(scene.geometry, Tilting):
+        for result in results.values():
+            height = result.quantities["pivot_film"].value / of_film.factor
+            film.plot(
+                axis.pivots[0][0], height, "^", color=GAP_COLOUR, markeredgecolor=EDGE_COLOUR, markersize=7, zorder=4
+            )
+    shown = results[reference].fields
+    across = float(shown["y"].values[0, int(np.argmax(shown["pressure"].values.max(axis=0)))])
     for axes in (film, pressure, density):
-        axis.mark(axes, named=axes is pressure)
+        axis.mark(axes, named=axes is pressure, at=across)
     figure.legend(loc="outside upper center", ncols=4, fontsize=8)
     figure.align_ylabels()
     return svg(figure)
@@ -81,7 +96,7 @@ def over(scene: Bearing, results: Mapping[str, Result], reference: str) -> Plot:
     """
     planes = {name: result for name, result in results.items() if result.fields["pressure"].values.shape[1] > 1}
     shown = reference if reference in planes else [*planes][-1]
-    result, axis = planes[shown], along_of(scene, planes)
+    result, axis = planes[shown], along_of(scene)
     place = [result.fields["x"].values[:, 0], result.fields["y"].values[0]]
     scales = scales_of([result])
     fields = {
@@ -137,6 +152,7 @@ def _difference_maps(
             axes.set_xlabel(along.label, fontsize=8)
             axes.set_ylabel("across, mm", fontsize=8)
             along.mark(axes, covered=True)
+            along.outline(axes)
             axes.label_outer()
         title, scale = fields[name][:2]
         axes.figure.colorbar(image, ax=line, label=scale.label(f"difference\nin {title}"), shrink=0.95)
@@ -157,12 +173,12 @@ def _on(result: Result, field: str, place: Sequence[Array]) -> Array:
 
 
 def _mark(axes: Axes, along: Along, result: Result) -> None:
-    """Mark the gaps between lobes, the direction of the load and the place of the least film on a map."""
-    if not along.around:
-        return
+    """Mark the gaps between lobes, the direction of the load, the supplies, the pivots and the least film on a map."""
     along.mark(axes, covered=True)
-    least = [result.quantities[name].value for name in ("film_min_x", "film_min_y")]
-    axes.plot(along(np.array(least[:1])), [1e3 * least[1]], "x", color=LEAST_COLOUR, markersize=7, zorder=4)
+    along.outline(axes)
+    if along.around:
+        least = [result.quantities[name].value for name in ("film_min_x", "film_min_y")]
+        axes.plot(along(np.array(least[:1])), [1e3 * least[1]], "x", color=LEAST_COLOUR, markersize=7, zorder=4)
 
 
 def plots(scene: Bearing, results: Mapping[str, Result], reference: str) -> dict[str, Plot]:
@@ -183,6 +199,7 @@ VIEW = View(
         "friction_coefficient",
         "power_loss",
         "pressure_max",
+        "supply_flow",
         "contact_share",
         "cavitated_fraction",
         "eccentricity",
@@ -191,6 +208,9 @@ VIEW = View(
         "film_min",
         "eccentricity",
         "attitude_angle",
+        "pivot_film",
+        "slope_x",
+        "slope_y",
         "load",
         "contact_share",
         "friction",
@@ -199,6 +219,8 @@ VIEW = View(
         "pressure_max",
         "inlet_flow",
         "side_leakage",
+        "supply_flow",
+        *(f"supply_{number}_{kind}" for number in range(1, MAX_SUPPLIES + 1) for kind in ("flow", "pressure")),
         "cavitated_fraction",
         "film_start",
         "rupture",

@@ -68,7 +68,7 @@ def with_truth(kind: str, seed: int, scene: Scene) -> Judged:
     known = Judged(kind=kind, seed=seed, scene=scene_entries(scene), truth={})
     try:
         truth = truth_of(scene)
-    except ConvergenceError as error:
+    except (ConvergenceError, InputError) as error:  # of a load that no film carries
         return replace(known, failure=str(error))
     return replace(
         known,

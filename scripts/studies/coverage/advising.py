@@ -6,7 +6,7 @@ from dataclasses import replace
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.ladder import find, models
 from roughfilm.rom.advice.advise import advise
-from roughfilm.rom.ladder.kind import Scene, kind_of_name
+from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.model import Model, best
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
@@ -51,4 +51,4 @@ def advised(scene: Scene) -> tuple[Advised, ...]:
             cpu_s=runs + max(time.process_time() - begun - new, 0.0),
         )
 
-    return tuple(one(quantity, within) for quantity in kind_of_name(scene.kind).compared for within in TOLERANCES)
+    return tuple(one(quantity, within) for quantity in kind_of_scene(scene).compared for within in TOLERANCES)

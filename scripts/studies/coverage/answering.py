@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.interface.solving import solve
 from roughfilm.ladder import models
 from roughfilm.rom.advice.laws import table
-from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.ladder.scene import scene_entries
@@ -58,10 +58,12 @@ def answer(model: Model, scene: Scene) -> Answer:
 def judged_resolution(model: Model, scene: Scene) -> int:
     """Return the resolution at which a model is judged on a scene: the default, or a coarser one for some bearings.
 
-    Of bearings with a width 15 of 16 are judged on a grid four or eight times coarser, whose truth takes less time.
+    Of bearings with a width 15 of 16 are judged on a grid four or eight times coarser, whose truth takes less time; if
+    the wall moves freely all are, one of 16 on a grid two times coarser, and one line on 256 cells.
     """
-    default = model.resolution_of(scene)
+    default, moving = model.resolution_of(scene), kind_of_scene(scene).name_of_laws != scene.kind
     if scene.kind != "bearing" or model.name == "infinitely_wide" or getattr(scene, "wide", False):
-        return default
+        return default // 16 if moving and scene.kind == "bearing" else default
     lot = zlib.crc32(json.dumps(scene_entries(scene), sort_keys=True).encode()) % 16
-    return max(default // (1 if lot == 0 else 4 if lot < 10 else 8), model.offered(scene).least)
+    coarser = (2 if lot == 0 else 4 if lot < 8 else 8) if moving else (1 if lot == 0 else 4 if lot < 10 else 8)
+    return max(default // coarser, model.offered(scene).least)

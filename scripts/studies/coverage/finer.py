@@ -30,8 +30,11 @@ MAX_SOLVE_S = 5.0
 MAX_FACTOR = 8
 """Largest number of cells along a side over that of the judged solution."""
 
-SOUGHT = ("load_per_width", "friction_per_width", "side_leakage", "pressure_max", "leakage_per_width")
-"""Quantities whose truth is to be sharp."""
+SOUGHT = ("load_per_width", "film_min", "friction_per_width", "side_leakage", "pressure_max", "leakage_per_width")
+"""Quantities whose truth is to be sharp; a given load or film is."""
+
+GIVEN = 1e-6
+"""Relative uncertainty of a quantity below which its truth is sharp in any case, such as that of a given load."""
 
 TOLERANCE_RATIO = 1e-2
 """Tolerance of the residual of the finer solutions over that of the judged one: the grid alone shall differ."""
@@ -137,7 +140,7 @@ def extrapolated(scene: Scene, model: Model, solve: Solver) -> Values:
 
 def _sharp(judged: Result, name: str, bar: float) -> bool:
     stated = judged.quantities[name].uncertainty
-    return stated is None or bar <= SHARE * stated
+    return stated is None or bar <= max(SHARE * stated, GIVEN * abs(judged.quantities[name].value))
 
 
 def _limits(runs: Sequence[Result]) -> dict[str, tuple[float, float]]:

@@ -109,7 +109,7 @@ class PaperC:
     Attributes
     ----------
     factors : φx and φs over ``RANGE`` by profile, shape (seeds, α, 2).
-    shuffled : φx and φs of the first seed and of its six rearrangements, by profile and way, shape (7, α, 2).
+    shuffled : φx and φs of the first seed and of its rearrangements, by profile and way, shape (1 + number, α, 2).
     """
 
     profiles: dict[str, list[Array]]
@@ -184,6 +184,7 @@ def compute(
     seeds: Sequence[int] = SEEDS,
     powers: Sequence[int] = POWERS,
     refined: int = REFINED,
+    shuffles: Sequence[int] = SHUFFLES,
     random: int = 100,
 ) -> PaperC:
     """Compute all data of the page; ``advance`` is called ``PARTS`` times."""
@@ -194,7 +195,7 @@ def compute(
         for alpha in ALPHAS:
             study[name, alpha] = convergence(made, alpha, powers)
         factors[name] = np.array([by_lines(heights) for heights in made])
-        for way, values in shuffled(made[0], SHUFFLES, refined).items():
+        for way, values in shuffled(made[0], shuffles, refined).items():
             orders[name, way] = values
     first = {name: made[0] for name, made in profiles.items()}
     advance("loads by the number of nodes")

@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial import Chebyshev
+from numpy.polynomial.chebyshev import chebfit, chebval
+from numpy.polynomial.polyutils import mapdomain
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
@@ -133,26 +134,23 @@ def tabled(
     nodes = highest + np.exp(places)
     at = factors(nodes)
 
-    def fit(values: Array) -> Chebyshev:
-        return Chebyshev.fit(places, values, degree, domain=[low, high])
-
-    along, across, drag = (
-        fit(np.log(values)) for values in (at.along / nodes**3, at.across / nodes**3, at.drag / nodes)
-    )
-    couette, part = fit(np.log(at.couette * nodes)), fit(at.shear_couette / at.couette)
+    kept = (at.along / nodes**3, at.across / nodes**3, at.drag / nodes, at.couette * nodes)
+    values = np.column_stack([*map(np.log, kept), at.shear_couette / at.couette])
+    polynomials = chebfit(mapdomain(places, (low, high), (-1, 1)), values, degree)
 
     def between(mean_gap: Array) -> GapFactors:
-        place = np.log(mean_gap - highest)
-        inverse = np.exp(couette(place)) / mean_gap
+        place = mapdomain(np.log(mean_gap - highest), (low, high), (-1, 1))
+        along, across, drag, couette, part = chebval(place, polynomials)
+        inverse = np.exp(couette) / mean_gap
         return GapFactors(
-            along=np.exp(along(place)) * mean_gap**3,
-            across=np.exp(across(place)) * mean_gap**3,
+            along=np.exp(along) * mean_gap**3,
+            across=np.exp(across) * mean_gap**3,
             cross=0 * mean_gap,
-            drag=np.exp(drag(place)) * mean_gap,
+            drag=np.exp(drag) * mean_gap,
             drag_across=0 * mean_gap,
             couette=inverse,
-            shear_couette=part(place) * inverse,
-            streaming=(1 - part(place)) * inverse,
+            shear_couette=part * inverse,
+            streaming=(1 - part) * inverse,
             least=mean_gap - highest,
         )
 

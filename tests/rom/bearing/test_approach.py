@@ -8,6 +8,7 @@ import pytest
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.ladder import find, models
+from roughfilm.rom.bearing.closed_forms.squeeze import squeezed_annulus
 from roughfilm.rom.bearing.mixed.film import mixed_problem
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.numbers import bearing_numbers
@@ -16,6 +17,7 @@ from roughfilm.rom.ladder.kind import kind_of, kind_of_scene
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.rom.studies.comparison import to_best
 
 VISCOSITY = 0.01
 PAD = {"shape": "linear", "length": "20 mm", "width": "30 mm", "film": "10 um", "rise": "20 um"}
@@ -246,3 +248,19 @@ def test_a_liquid_that_is_compressed_faster_than_it_flows_out_is_refused() -> No
     assert solve(line, 0.0, 0.5 * limit, lubricant=soft)["pressure_max"].value == pytest.approx(peak, rel=2e-3)
     with pytest.raises(ConvergenceError, match=r"lower motion\.approach"):
         solve(line, 0.0, 1.2 * limit, lubricant=soft)
+
+
+def test_a_flat_ring_that_is_squeezed_carries_the_load_of_annular_plates() -> None:
+    ring = RADII | {"shape": "sector", "rise": "0 m", "angle": "360 deg", "joined": True}
+    known = squeezed_annulus(film=10e-6, inner_radius=0.02, outer_radius=0.04, approach=1e-3, viscosity=VISCOSITY)
+    result = solve(ring)
+    load = result["load"]
+    assert load.uncertainty is not None
+    assert abs(load.value - known.load) < load.uncertainty < 0.03 * known.load
+
+
+def test_models_of_a_wall_at_rest_are_not_compared_by_its_friction_which_is_zero() -> None:
+    scene = scene_of({"shape": "parallel", "length": "20 mm", "width": "30 mm", "film": "10 um"})
+    ladder = [find("bearing", name) for name in ("reynolds", "reynolds_cavitating")]
+    results = {one.name: one.solve(scene, Request(resolution=32)) for one in ladder}
+    assert {one.quantity for one in to_best(scene, ladder, results)} == {"load_per_width"}

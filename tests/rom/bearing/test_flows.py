@@ -137,10 +137,10 @@ def test_a_groove_under_pressure_beside_an_open_side_has_no_finite_flow() -> Non
     unknown = {name for name, quantity in result.quantities.items() if quantity.uncertainty is None}
     at_the_outlet = {"outlet_flow", "outlet_flow_per_width", "side_leakage_high"}
     assert unknown == at_the_outlet | {"inlet_flow", "inlet_flow_per_width", "side_leakage_low", "side_leakage"}
-    assert [warning.split(":")[0] for warning in result.warnings] == [
-        "the pressure at the inlet is 3e+05 Pa above that at the low side",
-        "the pressure at the outlet is -3e+05 Pa above that at the high side",
-    ]
+    (warning,) = result.warnings
+    assert warning.split(":")[0] == (
+        "the pressure jumps between inlet and low side (+3e+05 Pa), outlet and high side (-3e+05 Pa)"
+    )
     grown = [solve(PAD, cells=n, boundary={"inlet": {"pressure": "3 bar"}}) for n in (32, 64, 128)]
     flows = [one["side_leakage_low"].value for one in grown]
     per_doubling = 3e5 * 30e-6**3 / (6 * math.pi * 0.01) * math.log(2)

@@ -87,7 +87,7 @@ def test_pockets_lie_where_they_are_put():
         ("geometry.shape=oval", "scene.geometry.shape: got 'oval'; it must be 'parallel'"),
         ("geometry.rises=3 um", "scene.geometry.rises: unknown key; did you mean 'rise'"),
         ("geometry.film=1 m", "scene.geometry.film: got 1.0 m, more than the length of the bearing"),
-        ("geometry.count=0", "scene.geometry.count: got 0; input should be greater than or equal to 1"),
+        ("geometry.count=0", "scene.geometry.count: got 0; it must be at least 1"),
         ("lubricant.viscosity=0", "scene.lubricant.viscosity: got 0, a number without a unit"),
         ("lubricant.compressibility.law=stiff", "law: got 'stiff'; it must be one of 'incompressible'"),
         ("lubricant.compressibility.law=dowson", "must be one of"),

@@ -1,6 +1,7 @@
 """The models of a bearing: published numbers, closed forms, limits in which they agree, and the contract."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -335,3 +336,15 @@ def test_a_film_restarted_from_a_thicker_one_has_the_load_of_one_from_coarser_gr
     restarted = balance(scene.problem(), (64, 64), start=start)
     fresh = balance(scene.problem(), (64, 64), tolerance=1e-13)
     assert restarted.levels[-1].load == pytest.approx(fresh.levels[-1].load, rel=2e-9)
+
+
+@pytest.mark.parametrize(
+    ("load", "warning"),
+    [("1 mN", r"film thickness: up to .* m, over a tenth of"), ("6 GN", r"pressure: .* Pa; walls deform")],
+)
+def test_loads_at_which_the_model_does_not_hold_are_warned_of(load, warning):
+    pad = {"shape": "pivoted", "length": "40 mm", "width": "40 mm", "pivot": 0.6}
+    entries = {"name": "pad", "kind": "bearing", "geometry": pad, "lubricant": {"viscosity": "30 mPa*s"}}
+    scene = read_scene(entries | {"motion": {"speed": "10 m/s"}, "load": {"force": load}})
+    warnings = find("bearing", "reynolds_cavitating").solve(scene, Request(resolution=32)).warnings
+    assert re.match(warning, warnings[0])

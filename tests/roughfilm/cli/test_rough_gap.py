@@ -101,6 +101,7 @@ def test_a_study_of_gaps_is_swept_and_reported(tmp_path):
     assert run("report", tmp_path / "sweep").exit_code == 0
 
 
+@pytest.mark.usefixtures("drawn")
 @pytest.mark.openfoam
 def test_a_comparison_shows_every_rung_and_the_film_in_space(tmp_path, monkeypatch):
     at_16 = Resolutions(least=16, most=16, default=16, series=(16,))

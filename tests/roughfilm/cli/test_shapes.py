@@ -70,6 +70,7 @@ def test_the_page_says_what_the_wall_looks_like(pocket_file, tmp_path, name, ove
     assert words in re.sub(r"\s+", " ", page)
 
 
+@pytest.mark.usefixtures("drawn")
 def test_the_pressure_plot_marks_the_edges_of_every_groove_and_nothing_else(pocket_file):
     edges = []
     for name, overrides in (("pocket", []), ("pocket", ONE), ("two_grooves", [])):

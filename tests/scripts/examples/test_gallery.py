@@ -434,6 +434,13 @@ def test_a_load_that_turns_at_half_of_the_speed_leaves_a_thinner_film() -> None:
     assert 1e6 * least["half speed"] == pytest.approx(3.8, abs=0.2)
 
 
+def test_the_film_of_a_pin_that_swings_is_thinnest_between_the_reversals() -> None:
+    least = values_of("bearings/swinging_pin")["least"]
+    assert 1e6 * least[400][0] == pytest.approx(2.0, abs=0.1)
+    assert 1e6 * least[200][0] == pytest.approx(1.28, abs=0.1)
+    assert all(abs(at % 0.5 - 0.25) > 0.1 for _, at in least.values())
+
+
 def test_the_load_of_a_washer_moves_from_asperities_to_the_film() -> None:
     values = values_of("mixed_lubrication/stribeck_washer")
     assert values["lift_off"] == pytest.approx([0.14, 0.60], abs=0.006)
@@ -452,6 +459,17 @@ def test_film_and_asperities_of_a_pad_share_its_load() -> None:
     assert (values["share"][values["films"] >= 3e-6] == 0).all()
     assert values["share"][0] == pytest.approx(1 / 3, abs=0.02)
     assert values["films"][values["friction"].argmin()] == pytest.approx(3e-6)
+
+
+def test_a_shaft_lifts_off_at_the_same_speed_in_plain_halves_and_in_a_lemon_bore() -> None:
+    values = values_of("mixed_lubrication/start_of_a_journal")
+    plain, lemon = (values["curves"][name] for name in ("plain halves", "lemon bore"))
+    assert plain.lift_off.speed == pytest.approx(0.25, abs=0.005)
+    assert lemon.lift_off.speed == pytest.approx(plain.lift_off.speed, rel=1e-3)
+    assert plain.points[0].contact_share > 0.9
+    assert plain.points[-1].contact_share == 0
+    friction = [curve.points[-1].friction_coefficient for curve in (plain, lemon)]
+    assert friction[1] / friction[0] == pytest.approx(1.69, abs=0.01)
 
 
 @pytest.mark.slow

@@ -32,7 +32,7 @@ from scripts.studies.paper_c.films import (
     wedge,
 )
 
-small = partial(compute, seeds=(203,), powers=(9, 10, 11), refined=1024, random=4)
+small = partial(compute, seeds=(203,), powers=(9, 10, 11), refined=1024, shuffles=(301, 302), random=4)
 
 
 @pytest.fixture(scope="module")
@@ -79,7 +79,7 @@ def waves(mean):
 @pytest.mark.parametrize("rough", [False, True])
 def test_films_against_collocation(modulus, rough):
     thickness = wedge(3e-6, 0.4e-6)
-    heights = 1e-6 * np.cos(2 * np.pi * np.arange(2048) / 2048)
+    heights = 1e-6 * np.cos(2 * np.pi * np.arange(512) / 512)
     found = solved(thickness, profile_over_gap(heights) if rough else None, cells=1024, modulus=modulus)
     exact = by_collocation(thickness, waves if rough else smooth, modulus)
     assert found.pressure == pytest.approx(exact(found.x), abs=3e-5 * found.pressure.max())
@@ -160,7 +160,7 @@ def test_simpson_in_the_study_is_nearer_on_the_points(paper):
 def test_sums_over_rearranged_heights_are_the_same(paper):
     for name in TABLE:
         values = paper.shuffled[name, WAYS[0]]
-        assert values.shape == (7, RANGE.size, 2)
+        assert values.shape == (3, RANGE.size, 2)
         assert np.ptp(values, axis=0) == pytest.approx(0, abs=1e-12)
         assert np.ptp(paper.shuffled[name, WAYS[1]], axis=0).max() > 1e-4
 
@@ -221,7 +221,7 @@ def test_verdicts_on_what_the_paper_says_and_on_the_opposite(paper):
         orderings=orderings(1),
     )
     assert verdicts(says) == {11: "true", 12: "true", 14: "true"}
-    turned = {key: values * np.linspace(1, 2, 7)[:, None, None] for key, values in paper.shuffled.items()}
+    turned = {key: values * np.linspace(1, 2, len(values))[:, None, None] for key, values in paper.shuffled.items()}
     opposite = replace(
         paper,
         convergence=dict.fromkeys(paper.convergence, studies(2, 4)),

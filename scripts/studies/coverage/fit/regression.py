@@ -30,6 +30,7 @@ NOT_FALLING = frozenset(
         "reynolds_number",
         "roughness_reynolds_number",
         "pressure_dependence",
+        "suction",
         "roughness_ratio",
         "peak_ratio",
         "roughness_period",

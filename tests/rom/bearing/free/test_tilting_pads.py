@@ -8,6 +8,7 @@ from roughfilm.ladder import find
 from roughfilm.rom.bearing.dynamics.whirl import condensed
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, holding, refined
 from roughfilm.rom.bearing.free.film import free_film
+from roughfilm.rom.bearing.free.idle import idle_pads
 from roughfilm.rom.bearing.quantities import shaft_moments
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
 from roughfilm.rom.ladder.request import Request
@@ -115,6 +116,36 @@ def test_suction_that_closes_a_pad_is_one_line():
     with pytest.raises(InputError, match=r"carries no load.*cavitation_pressure") as error:
         settled(FIVE, force="12 kN", cavitation="-0.1 MPa", cells=(30, 4))
     assert "\n" not in str(error.value)
+
+
+def test_of_two_equilibria_that_in_which_all_pads_carry_load_is_found():
+    """The load of a given place comes back to it; at the other equilibrium, 0.01 c away, pad 4 carries none."""
+    pads = FIVE | {"preload": 0.4, "pivot": 0.6, "offset": 0.6}
+    bearing = scene(pads | {"eccentricity": [0.13, -0.48]})
+    given = free_film(bearing.model_copy(update={"load": None}), (40, 6))
+    known = equilibrium(given, None, tolerance=1e-10)
+    assert idle_pads(given, known) == []
+    x, y = (-float(force) for force in given.solved.force(known.state.pressure)[:2])
+    angle = float(np.degrees(np.arctan2(y, x)))
+    film, instant = settled(pads, force=f"{np.hypot(x, y):.17g} N", load={"angle": f"{angle!r} deg"}, cells=(40, 6))
+    assert idle_pads(film, instant) == []
+    assert instant.place[:2] == pytest.approx(known.place[:2], abs=1e-6 * CLEARANCE)
+
+
+def test_suction_does_not_keep_pads_from_the_tilts_at_which_they_carry_load():
+    pads = {"lobes": 3, "arc": "100 deg", "preload": 0.2, "pivot": 0.6, "offset": 0.6}
+    film, instant = settled(BORE | pads, force="3 kN", cavitation="-0.1 MPa", cells=(36, 6))
+    assert idle_pads(film, instant) == []
+
+
+def test_suction_that_no_film_meets_changes_no_equilibrium():
+    """All films are full in equilibrium; on the way to it suction draws pad 4 onto the shaft."""
+    pads = FIVE | {"pivot": 0.6, "offset": 0.6, "first": "-126 deg"}
+    ambient, suction = (
+        settled(pads, force="20 kN", cavitation=cavity, cells=(48, 8)) for cavity in ("0 Pa", "-30 kPa")
+    )
+    assert not (ambient[1].state.fill < 1).any()
+    assert suction[1].place == pytest.approx(ambient[1].place, rel=1e-6)
 
 
 def moments(along_x, along_y, place=(0.2, -0.5)):

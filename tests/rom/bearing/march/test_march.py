@@ -218,3 +218,19 @@ def test_the_end_lies_within_a_table_that_does_not_repeat():
     with pytest.raises(InputError, match="the table ends at"):
         march_bearing(scene, end=0.01)
     assert solve.Duty(scene=scene).default_end() == pytest.approx(1e-3)
+
+
+def test_the_flow_of_a_supply_is_that_of_its_orifice_at_its_pressure():
+    hole = {"kind": "hole", "angle": "90 deg", "diameter": "3 mm", "pressure": "0.5 MPa"}
+    scene = bearing(
+        lubricant=LUBRICANT | {"density": "850 kg/m^3"},
+        load={"force": "300 N"},
+        supply=[hole | {"orifice": {"diameter": "0.3 mm"}}],
+    )
+    march = march_bearing(scene, end=1e-3, cells=CELLS)
+    flows = [name for name in march.series.units if name.endswith("_flow")]
+    assert flows == ["gap_1_flow", "gap_2_flow", "supply_1_flow"]
+    drop = 0.5e6 - march["supply_1_pressure"][1:]
+    area = math.pi * 0.3e-3**2 / 4
+    assert drop.min() > 0
+    np.testing.assert_allclose(march["supply_1_flow"][1:], 0.6 * area * np.sqrt(2 * drop / 850), rtol=1e-6)

@@ -9,7 +9,8 @@ from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import free_film
 from roughfilm.rom.bearing.free.solve import solve_free
 from roughfilm.rom.bearing.march.course import Duty
-from roughfilm.rom.bearing.march.quasi_static import quasi_static, steady
+from roughfilm.rom.bearing.march.in_time import steady
+from roughfilm.rom.bearing.march.quasi_static import quasi_static
 from roughfilm.rom.bearing.march.solve import march_bearing
 from roughfilm.rom.ladder.scene import read_scene
 

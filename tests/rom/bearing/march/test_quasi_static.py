@@ -53,7 +53,6 @@ def test_slower_loads_have_a_smaller_squeeze_number_and_change():
     slow, fast = (quasi_static(Duty(scene=bearing(period)), cells=CELLS, times=32) for period in (1.0, 0.1))
     assert fast.squeeze_number == pytest.approx(10 * slow.squeeze_number, rel=1e-3)
     assert abs(fast.change) > 4 * abs(slow.change)
-    assert fast.faster(0.05) == pytest.approx(0.05 / abs(fast.change))
 
 
 def test_a_heavy_body_adds_its_inertia():
@@ -98,10 +97,3 @@ def test_where_the_march_stops_the_estimate_to_first_order_is_stated(monkeypatch
     assert in_time.entries["quasi_static"]["enough"] is enough
     assert not in_time.entries["quasi_static"]["marched"]
     assert words in in_time.lines[0]
-
-
-def test_a_steady_load_has_no_change_in_time():
-    table = {"time": ["0 s", "1 s"], "speed": ["10 m/s", "12 m/s"]}
-    scene = bearing(1.0)
-    motion = scene.motion.model_copy(update={"over_time": type(scene.motion.over_time).model_validate(table)})
-    assert KIND.in_time(scene.model_copy(update={"motion": motion}), 0.05) is None

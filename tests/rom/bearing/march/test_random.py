@@ -129,7 +129,7 @@ def test_a_capillary_that_passes_next_to_nothing_leaves_its_hole_to_the_film():
     )
     march = marched(bearing, steps=30)
     check(march)
-    passed = np.abs(march["supply_flow_1"][1:]).max()
+    passed = np.abs(march["supply_1_flow"][1:]).max()
     assert passed < 1e-6 * np.abs(march["side_flow_high"][1:]).max()
 
 

@@ -89,3 +89,24 @@ def test_without_asperities_friction_and_film_scale_with_the_number_of_hersey():
         assert same.separation == pytest.approx(point.separation, rel=1e-5)
         assert same.friction_coefficient == pytest.approx(point.friction_coefficient, rel=1e-5)
         assert point.contact_share == same.contact_share == 0
+
+
+def test_the_film_of_a_pad_grows_with_the_square_root_of_the_speed():
+    scene = read_scene(
+        {
+            "name": "a pad about its pivot",
+            "kind": "bearing",
+            "geometry": {"shape": "pivoted", "length": "40 mm", "width": "40 mm", "pivot": [0.6, 0.5]},
+            "lubricant": {"viscosity": "30 mPa*s"},
+            "motion": {"speed": "10 m/s"},
+            "load": {"pressure": "2 MPa"},
+        }
+    )
+    speeds = (0.01, 0.1, 1.0, 10.0)
+    (found,) = stribeck(scene, speeds, [2e6], resolution=CELLS)
+    first, *others = found.points
+    for speed, point in zip(speeds[1:], others, strict=True):
+        ratio = (speed / speeds[0]) ** 0.5
+        assert point.separation == pytest.approx(ratio * first.separation, rel=1e-6)
+        assert point.friction == pytest.approx(ratio * first.friction, rel=1e-6)
+        assert point.uncertainty["friction"] < 0.1 * point.friction

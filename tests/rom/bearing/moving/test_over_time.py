@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+import roughfilm as rf
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 
@@ -95,7 +96,6 @@ FAULTS = {
     "beyond the bore": ({"time": TIMES, "eccentricity_x": [0, 0.8], "eccentricity_y": [0, 0.7]}, {}, "into the bore"),
     "negative film": ({"time": TIMES, "film": ["1 um", "-1 um"]}, {"geometry": PAD}, "above zero"),
     "film of a shaft": ({"time": TIMES, "film": ["1 um", "2 um"]}, {}, "give eccentricity_x"),
-    "both directions": ({"time": TIMES, "speed": ["-1 m/s", "1 m/s"], "load": ["1 N"] * 2}, {}, "both signs"),
     "open period": ({"time": TIMES, "load": ["1 N", "2 N"], "period": "1 s"}, {}, "ends where it begins"),
     "short period": ({"time": TIMES, "load": ["1 N", "2 N"], "period": "0.5 s"}, {}, "the rows span"),
     "no file": ({"file": "/nowhere.csv"}, {}, "no such file"),
@@ -103,11 +103,6 @@ FAULTS = {
         {"time": TIMES, "eccentricity_x": [0, 0.1], "eccentricity_y": [0, 0]},
         {"body": {"mass": "1 kg"}},
         "no load acts on",
-    ),
-    "journal": (
-        {"time": TIMES, "load": ["1 N"] * 2},
-        {"geometry": {"shape": "journal", "radius": "25 mm", "clearance": "25 um", "eccentricity": 0.5}},
-        "take shape = 'lobes'",
     ),
 }
 
@@ -140,3 +135,11 @@ def test_every_fault_of_a_file_is_one_line(tmp_path, text, words):
     with pytest.raises(InputError, match=words) as error:
         scene({"file": str(path)})
     assert "\n" not in str(error.value)
+
+
+def test_a_steady_film_carries_the_load_of_the_scene_and_no_load_of_its_table():
+    table = {"time": ["0 s", "1 s"], "load": ["1 kN", "2 kN"]}
+    fed = {"lobes": 2, "arc": "150 deg"}
+    assert rf.solve(scene(table, SHAFT | fed, load={"force": "500 N"}))["load"].value == pytest.approx(500, rel=1e-6)
+    with pytest.raises(InputError, match=r"^load: is missing; .* \[load\], or take roughfilm march$"):
+        rf.solve(scene(table, SHAFT | fed))

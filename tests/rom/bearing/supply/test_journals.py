@@ -8,6 +8,7 @@ import pytest
 import scipy.sparse
 import scipy.sparse.linalg
 
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import free_film
@@ -20,6 +21,8 @@ RADIUS, CLEARANCE, WIDTH, ETA, SPEED = 25e-3, 25e-6, 40e-3, 0.02, 4.0
 BORE = {"shape": "lobes", "radius": "25 mm", "clearance": "25 um", "width": "40 mm"}
 LENGTH = 2 * math.pi * RADIUS / 16
 GROOVE = {"kind": "groove", "angle": "90 deg", "length": f"{LENGTH!r} m", "extent": "20 mm", "pressure": "0.5 MPa"}
+STARVED = {name: value for name, value in GROOVE.items() if name != "pressure"} | {"flow": "0.01 l/min"}
+LOADED = {"force": "3 kN", "angle": "-90 deg"}
 AROUND = {"kind": "groove", "extent": "4 mm", "pressure": "0.2 MPa"}
 
 
@@ -180,3 +183,23 @@ def test_a_film_that_closes_conserves_what_is_supplied():
     assert (after.kind == 1).any()
     assert abs(entering - growth) <= 1e-9 * np.abs(after.balance).max()
     assert film.grid.shape[1] == 2 * moving.solved.grid.shape[1] - 1
+
+
+def test_a_supply_that_the_film_starves_at_the_equilibrium_is_named():
+    """Nowhere in the clearance does a film whose pressures are above cavitation come near to the load."""
+    film, starving, load = free_film(scene_of([STARVED], load=LOADED), (32, 16)), 0, np.array([0.0, -3e3])
+    drive = Drive(
+        speed=film.solved.problem.speed, force=np.zeros(2), stiffness=np.zeros((2, 2)), free=np.zeros(2, dtype=bool)
+    )
+    for ratio in (0.1, 0.4, 0.7):
+        for angle in np.radians(range(0, 360, 45)):
+            place = CLEARANCE * ratio * np.array([math.cos(angle), math.sin(angle)])
+            instant = settled(film.solved, film.first(place), drive, tolerance=1e-8, starved=True)
+            if instant.pressures[0] < 0:
+                starving += 1
+            else:
+                assert np.hypot(*(film.solved.force(instant.state.pressure) + load)) > 0.2 * 3e3
+    assert starving > 0
+    with pytest.raises(InputError, match=r"^supply\.0: in equilibrium at the eccentricity .* raise the flow") as error:
+        solved([STARVED], load=LOADED)
+    assert "\n" not in str(error.value)

@@ -11,6 +11,24 @@ from roughfilm.cli.main import app
 
 SCENE = SCENES / "grooved_journal.toml"
 
+ROUGH = """
+[roughness]
+kind = "surface"
+[roughness.surface]
+kind = "gaussian"
+size = ["1 mm", "1 mm"]
+points = [16, 16]
+seed = 504
+rms_height = "1 um"
+correlation_length = "0.15 mm"
+[asperities]
+friction = 0.1
+[asperities.solid]
+modulus = "210 GPa"
+poisson = 0.3
+hardness = "5 GPa"
+"""
+
 
 def run(*arguments, scene=SCENE):
     words = ["dynamics", str(scene), "--resolution", "32", *map(str, arguments)]
@@ -80,3 +98,16 @@ def test_a_shape_whose_wall_is_given_is_refused(tmp_path):
     done = run("--out", tmp_path / "out", scene=SCENES / "journal.toml")
     assert done.exit_code == 2
     assert "geometry.shape: got 'journal'" in " ".join(done.stderr.split())
+
+
+def test_the_load_on_asperities_has_a_column_and_stands_in_the_answer(tmp_path):
+    """A surface with few points and gaps, so that its table is made fast."""
+    rough = tmp_path / "rough.toml"
+    rough.write_text(SCENE.read_text(encoding="utf-8") + ROUGH, encoding="utf-8")
+    done = run("--out", tmp_path / "rough", "--speeds", "10rpm", scene=rough)
+    assert done.exit_code == 0, done.stderr
+    assert "contact, %" in done.stdout
+    assert "of which asperities carry" in " ".join((done.stdout + done.stderr).split())
+    page = (tmp_path / "rough" / "report.html").read_text(encoding="utf-8")
+    assert "asperities that touch and deform" in page
+    assert "carried by contact" in page

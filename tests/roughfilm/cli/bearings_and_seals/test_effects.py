@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from click.testing import Result
+from empty_figures import empty_figures
 from places import SCENES
 from typer.testing import CliRunner
 
@@ -27,7 +28,9 @@ def run(scene: str, *arguments: object) -> Result:
 def pad(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
     """The directory of the example, coarse, and what ``--json`` entries."""
     out = tmp_path_factory.mktemp("effects")
-    done = run("pad.toml", *COARSE, "--resolution", 32, "--out", out, "--json")
+    with pytest.MonkeyPatch.context() as patch:
+        empty_figures(patch)
+        done = run("pad.toml", *COARSE, "--resolution", 32, "--out", out, "--json")
     assert done.exit_code == 0, done.stderr
     return out, json.loads(done.stdout)
 

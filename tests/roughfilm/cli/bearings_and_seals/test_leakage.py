@@ -8,17 +8,16 @@ import re
 
 import numpy as np
 import pytest
+from empty_figures import ABSENT
 from small_scenes import CONTACT, SEAL, SURFACE
 from typer.testing import CliRunner
 
 from roughfilm.cli.main import app
-from roughfilm.rom.ladder.model import Availability
 from roughfilm.rom.seal.leakage import curve as leakage_run
 from roughfilm.rom.seal.leakage.series import load_series
 from roughfilm.rom.studies.table import read_table
 from roughfilm.words.numbers import with_error
 
-ABSENT = Availability(available=False, detail="left out in a test")
 NAMES = ("direct_x", "direct_y", "homogenized_x", "homogenized_y")
 
 

@@ -19,13 +19,13 @@ kind = "pocket"
 [geometry]
 length = "1 mm"
 film = "30 um"
-width = ["0.2 length", "0.3 length", "0.5 length"]
+width = ["0.2 length", "0.5 length"]
 depth = ["0.25 film", "0.75 film"]
 [lubricant]
 viscosity = "0.01 Pa*s"
 density = "1000 kg/m^3"
 [motion]
-reynolds_number = [20, 60, 160]
+reynolds_number = [20, 160]
 [[variants]]
 geometry.profile = "cylindrical"
 [[variants]]
@@ -56,9 +56,9 @@ def reported(finished):
 
 def test_a_sweep_is_read_side_by_side(finished):
     sweep = read_sweep(read_table(finished / "table.h5"), "pocket")
-    assert len(sweep.names) == 36
+    assert len(sweep.names) == 16
     assert set(sweep.found) == {"reynolds", "inertial_reynolds", "film-100", "film_slope-100"}
-    assert np.unique(sweep.given["width_plus"]) == pytest.approx([0.2, 0.3, 0.5])
+    assert np.unique(sweep.given["width_plus"]) == pytest.approx([0.2, 0.5])
     features = sweep.features()
     splined = sweep.given["profile"] == "splined"
     expected = sweep.given["depth_plus"] * 0.03 / sweep.given["width_plus"]
@@ -69,14 +69,14 @@ def test_a_sweep_is_read_side_by_side(finished):
 def test_the_report_orders_the_errors_of_every_model(finished, reported):
     entries, page = reported
     assert entries["reference"] == "film_slope-100"
-    assert entries["cases"] == 36
+    assert entries["cases"] == 16
     rows = {row["setting"]: row for row in entries["settings"]}
     sweep = read_sweep(read_table(finished / "table.h5"), "pocket")
     error = relative_error(sweep, "film-100", "film_slope-100", "load_plus")[loaded(sweep, "film_slope-100")]
     assert rows["film-100"]["error"]["load_plus"]["worst"] == pytest.approx(error.max())
     law = rows["inertial_reynolds"]["ordered_by"]["friction_plus"]
     assert 0.5 < law["rank"] <= 1
-    assert "36 cases by 4 settings" in page
+    assert "16 cases by 4 settings" in page
     assert not re.findall(r"(?:src|href)=\"http", page)
 
 
@@ -102,9 +102,7 @@ def test_a_directory_without_a_table_is_one_line(tmp_path):
 
 
 def test_an_edited_case_is_not_the_best_one_and_is_named(tmp_path):
-    text = STUDY.replace('["0.2 length", "0.3 length", "0.5 length"]', '"0.3 length"').replace(
-        "[20, 60, 160]", "[20, 60]"
-    )
+    text = STUDY.replace('["0.2 length", "0.5 length"]', '"0.3 length"').replace("[20, 160]", "[20, 60]")
     (tmp_path / "study.toml").write_text(text.partition("[study]")[0] + '[study]\nmodels = ["reynolds"]\n')
     out = tmp_path / "done"
     run = CliRunner().invoke(app, ["batch", str(tmp_path / "study.toml"), "--out", str(out)])

@@ -11,6 +11,7 @@ import time
 import h5py
 import numpy as np
 import pytest
+from empty_figures import ABSENT
 from typer.testing import CliRunner
 
 from roughfilm.cli.main import app
@@ -22,11 +23,9 @@ from roughfilm.contact.read import parse_spacing
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.figures.rendering import probe
-from roughfilm.rom.ladder.model import Availability
 from roughfilm.terminal.ranges import loads_of
 from roughfilm.words.numbers import with_error
 
-ABSENT = Availability(available=False, detail="left out in a test")
 STEEL = ("--modulus", "210GPa", "--poisson", "0.3")
 PLASTIC = (*STEEL, "--hardness", "4GPa")
 NUMBERS = {"load", "area_fraction", "area_fraction_pixel", "plastic_fraction", "mean_gap", "approach"}

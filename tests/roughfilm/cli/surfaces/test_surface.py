@@ -137,11 +137,13 @@ def test_people_get_a_table_and_the_warnings(run, csv):
     assert "warning: periodicity mismatch" in done.output
 
 
+@pytest.mark.usefixtures("drawn")
 def test_the_page_holds_its_pictures_and_nothing_from_elsewhere(run, csv, tmp_path):
     done = run(csv, "--report", tmp_path / "page.html")
     assert done.exit_code == 0
     page = (tmp_path / "page.html").read_text()
     assert page.count("<svg") == 5
+    assert "data:image/png" in page or "No picture: " in page
     for title in ("Heights", "Joints", "Bearing curve", "Power spectrum", "Parameters", "Recipe"):
         assert f"<h2>{title}</h2>" in page
     first = page[page.index("<h1>") : page.index("<h2>")]

@@ -29,11 +29,28 @@ def test_bearings_have_every_shape_texture_and_feed(bearings):
     assert any(one.motion.speed < 0 for one in bearings)
 
 
-@pytest.mark.parametrize("kind", ["bearing", "dry_contact", "seal", "rough_gap", "dimples"])
+@pytest.mark.parametrize(
+    "kind", ["bearing", "free_bearing", "placed_bearing", "dry_contact", "seal", "rough_gap", "dimples"]
+)
 def test_a_seed_is_one_scene(kind):
     first, again, other = (scene_entries(drawn(kind, seed)) for seed in (20003, 20003, 20004))
     assert first == again
     assert first != other
+
+
+@pytest.mark.parametrize(("kind", "loaded"), [("free_bearing", True), ("placed_bearing", False)])
+def test_walls_that_move_freely_have_every_shape_supply_and_wall(kind, loaded):
+    moving = [drawn(kind, seed) for seed in range(20000, 20000 + COUNT)]
+    assert {kind_of_scene(one).name_of_laws for one in moving} == {kind}
+    assert all(kind_of_scene(one).lawful and (one.load is not None) == loaded for one in moving)
+    assert {one.geometry.shape for one in moving} == {"lobes", "pivoted", "pivoted_sector"}
+    bores = [one.geometry for one in moving if one.geometry.shape == "lobes"]
+    assert {one.single for one in bores} == {one.joined for one in bores} == {True, False}
+    assert {one.pivot is None for one in bores} == {one.symmetric for one in bores} == {True, False}
+    assert {one.lobes for one in bores} >= {1, 2, 3, 4, 5, 6}
+    assert any(one.supply for one in moving)
+    assert any(one.lubricant.cavitation_pressure < 0 for one in moving)
+    assert {one.roughness.kind for one in moving if one.roughness} == {"sinusoid", "surface"}
 
 
 def test_rough_gaps_are_between_ridges_or_surfaces_and_open_or_pressed():

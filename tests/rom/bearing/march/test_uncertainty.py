@@ -1,0 +1,79 @@
+"""The uncertainty of a march where marches on coarser grids stop."""
+
+import pytest
+
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.rom.bearing.march import solve
+from roughfilm.rom.bearing.march.solve import march_bearing
+from roughfilm.rom.ladder.scene import read_scene
+
+CELLS = (16, 8)
+
+
+def scene():
+    """A shaft with an unbalance in two axial grooves."""
+    return read_scene(
+        {
+            "name": "rotor",
+            "kind": "bearing",
+            "geometry": {
+                "shape": "lobes",
+                "radius": "25 mm",
+                "clearance": "40 um",
+                "width": "25 mm",
+                "lobes": 2,
+                "arc": "150 deg",
+            },
+            "lubricant": {"viscosity": "15 mPa*s"},
+            "motion": {"speed": "6000 rpm"},
+            "load": {"force": "300 N"},
+            "body": {"mass": "3 kg", "unbalance": "50 g*mm"},
+        }
+    )
+
+
+def marched(monkeypatch, stops):
+    """A march whose other marches stop where stops(numerics) is true, and the numerics of the others."""
+    others, own = [], solve.run
+
+    def run(duty, numerics, **options):
+        if stops(numerics):
+            raise ConvergenceError("the film becomes too thin")
+        others.append(numerics)
+        return own(duty, numerics, **options)
+
+    monkeypatch.setattr(solve, "run", run)
+    march = march_bearing(scene(), end=2e-3, steps=12, cells=CELLS)
+    return march, others[1:]
+
+
+@pytest.fixture(scope="module")
+def finer():
+    """The march on four times as many nodes with steps half as long."""
+    return march_bearing(scene(), end=2e-3, steps=24, cells=(32, 16), uncertain=False)
+
+
+def covered(march, finer):
+    return all(
+        abs(one.value - finer.quantities[name].value) <= one.uncertainty for name, one in march.quantities.items()
+    )
+
+
+def test_a_finer_grid_takes_the_place_of_the_coarse_one(monkeypatch, finer):
+    march, others = marched(monkeypatch, lambda numerics: numerics.cells[0] < 12)
+    assert [one.cells for one in others] == [(12, 6), (12, 6)]
+    assert covered(march, finer)
+    assert not march.warnings
+
+
+def test_shorter_steps_take_the_place_of_longer_ones(monkeypatch, finer):
+    given = 2e-3 / 12
+    march, others = marched(monkeypatch, lambda numerics: numerics.step > 1.5 * given)
+    assert [one.step for one in others] == pytest.approx([given, given / 2])
+    assert covered(march, finer)
+
+
+def test_without_any_other_march_there_is_no_uncertainty_and_a_warning_says_why(monkeypatch):
+    march, _ = marched(monkeypatch, lambda numerics: numerics.cells != CELLS)
+    assert all(one.uncertainty is None for one in march.quantities.values())
+    assert "no uncertainty: all marches on coarser grids stopped (the film becomes too thin)" in march.warnings
