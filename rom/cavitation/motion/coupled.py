@@ -37,6 +37,9 @@ In the plane they follow a step only if it changed fewer nodes than all before, 
 move nodes to and fro; and everywhere only if no storage is negative, so that the balances form an M-function.
 """
 
+LEAST_STORED = 1e-5
+"""Flow over the volume of a node per step to which balances are related where nothing flows through a face."""
+
 STALLED = 0.5
 """Ratio of successive residuals from which on they are the round-off of the pressures, or nearly so."""
 
@@ -163,7 +166,8 @@ class Trial:
         parts = [np.empty(net.shape) for _ in range(6)]
         mobility = film.problem.mobility(self.pressure)
         laws = (*film.problem.compression(self.pressure), *mobility)
-        self.largest = net.linearise(known, self.pressure, self.fill, laws, parts) or 1.0
+        flow = net.linearise(known, self.pressure, self.fill, laws, parts)
+        self.largest = flow or LEAST_STORED * float(net.storage.max()) or 1.0
         for bank, rest in zip(net.banks(self.kind), net.banks(parts[0]), strict=True):
             settle_bank(bank, rest)
         self.linear, self.factors = Linear(self.kind, mobility[0], *parts), None
@@ -193,13 +197,14 @@ class Trial:
 
         Parameters
         ----------
-        round_off : whether balances below the round-off of the unknowns, and of the mean pressure of the load, count
-            as 0: at rest nothing else flows.
+        round_off : whether balances below the round-off of the unknowns, and of the mean pressure of the load that is
+            carried, count as 0: at rest nothing else flows.
         """
         rest, excess = self.rest, float(np.abs(self.inflow_excess).max(initial=0.0))
         if round_off:
-            load = self.drive.force - self.drive.stiffness @ self.place
-            loads = np.abs(load) / np.abs(self.film.weights).sum(axis=0)
+            weights, load = np.abs(self.film.weights), self.drive.force - self.drive.stiffness @ self.place
+            carried = np.abs(self.pressure - self.film.ambient).ravel() @ weights + self.contact.sizes
+            loads = np.minimum(np.abs(load), carried) / weights.sum(axis=0)
             unknowns = np.where(self.kind == CAVITY, 1.0, np.abs(self.pressure) + loads.max(initial=0.0))
             flows = np.abs(self.linear.centre) * unknowns + self.network.storage
             rest = np.where(np.abs(rest) > BALANCE_ROUNDOFF * flows, rest, 0.0)

@@ -26,6 +26,9 @@ MIN_STEP = 1e-9
 SHORT_STEP, MAX_SHORT_STEPS = 1e-5, 2000
 """Time step over the largest one, and the number of such steps in a row, beyond which a march would hardly end."""
 
+MAX_UNRESISTED = 100
+"""Number of steps of a film without pressure that fail because nothing resists its wall, beyond which a march stops."""
+
 FIRST_STEP = 1e-3
 """First time step over the largest one: it has first order, since no earlier film is known."""
 
@@ -167,7 +170,8 @@ def march(
     """
     _check_times(start.now.time, end, largest_step, error)
     moving = start
-    size, short = start.following or (largest_step if error is None else FIRST_STEP * largest_step), 0
+    size = start.following or (largest_step if error is None else FIRST_STEP * largest_step)
+    short = unresisted = 0
     while moving.now.time < end - ROUNDOFF * min(largest_step, end - start.now.time):
         left = end - moving.now.time
         size = min(size, largest_step)
@@ -188,7 +192,8 @@ def march(
             error is not None and following.error > error and size > MIN_STEP * largest_step
         ):
             size *= min(ratio, 0.7)
-            if size < MIN_STEP * largest_step:
+            unresisted += isinstance(following, UnresistedError)
+            if size < MIN_STEP * largest_step or unresisted > MAX_UNRESISTED:
                 raise _stopped(film.mirrored if moving.turned else film, course, moving, closest, following)
             continue
         size *= ratio
@@ -196,6 +201,7 @@ def march(
         least = float(moving.instant.faces.thickness.min())
         if least < closest:
             raise _stopped(film.mirrored if moving.turned else film, course, moving, closest, None)
+        unresisted = 0 if _pressed(moving.instant) else unresisted
         short = short + 1 if moving.step < SHORT_STEP * largest_step else 0
         if short > MAX_SHORT_STEPS:
             raise _too_fast(course, moving)
@@ -219,6 +225,11 @@ def _check_course(time: float, speed: float, place: Array, force: Array) -> None
     for name, values in (("place", place), ("force", force)):
         if not np.isfinite(values).all():
             raise InputError(f"motion.{name}: got {values.tolist()} at the time {time:.6g} s; give finite numbers")
+
+
+def _pressed(instant: Instant) -> bool:
+    """Whether a film has pressure anywhere."""
+    return bool(((instant.kind == FILM) & (instant.state.pressure > 0)).any())
 
 
 def _names(course: Course) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -256,7 +267,6 @@ def _stopped(
     instant, (names, remedies) = moving.instant, _names(course)
     thickness = instant.faces.thickness
     least, at = float(thickness.min()), np.unravel_index(int(np.argmin(thickness)), thickness.shape)
-    pressed = (instant.kind == FILM) & (instant.state.pressure > 0)
     resists = np.diag(course.mass) + np.abs(np.diag(course.stiffness)) > 0
     loose = np.flatnonzero(course.free & ~resists)
     if least < 2 * closest:
@@ -267,7 +277,7 @@ def _stopped(
         )
         if film.turns is not None and film.turns.any() and least < TILTED * float(thickness.mean()):
             reason += ", or move the pivot or change the moments, which tilt the pad"
-    elif loose.size and (isinstance(cause, UnresistedError) or not pressed.any()):
+    elif loose.size and (isinstance(cause, UnresistedError) or not _pressed(instant)):
         remedy = " and ".join(dict.fromkeys(remedies[number] for number in loose))
         reason = (
             f"the film loses its pressure and does not resist {_listed([names[number] for number in loose])}; give "

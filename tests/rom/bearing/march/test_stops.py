@@ -42,7 +42,7 @@ def test_a_pad_whose_moments_no_tilt_balances_closes_and_its_pivot_is_named():
         marched(PAD | {"pivot": 0.35}, load={"force": "500 N"}, body=start)
 
 
-@pytest.mark.parametrize("cavitation", ["0 Pa", "-1 MPa"])
+@pytest.mark.parametrize("cavitation", ["-0.1 MPa", "-1 MPa"])
 def test_a_parallel_pad_at_rest_stays_parallel(cavitation):
     """Nothing flows at rest: pressures are ambient up to round-off, which is neither a force nor an imbalance."""
     film = {"time": ["0 s", "1 ms"], "film": ["50 um", "50 um"]}
