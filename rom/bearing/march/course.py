@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.rom.bearing.free.equilibrium import equilibrium
+from roughfilm.rom.bearing.free.equilibrium import equilibrium, holding
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
 from roughfilm.rom.bearing.free.walls import wall_of
 from roughfilm.rom.bearing.geometry.lobes import DOWN, Lobes
@@ -347,7 +347,7 @@ def course_of(duty: Duty, film: FreeFilm) -> Course:
         speed=lambda time: (-1 if film.turned else 1) * duty.speed(time),
         force=lambda time: duty.force(time)[:count],
         mass=mass,
-        stiffness=np.zeros((count, count)),
+        stiffness=holding(film, duty.load(duty.begin)[:count]),
         velocity_scale=_velocity_scale(duty, film),
         names=wall.names,
         remedies=tuple(resisted if turns else "body.mass" for turns in wall.turns),

@@ -8,6 +8,7 @@ import pytest
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import free_film
+from roughfilm.rom.bearing.free.idle import idle_pads
 from roughfilm.rom.bearing.march import solve, store
 from roughfilm.rom.bearing.march.solve import march_bearing
 from roughfilm.rom.ladder.scene import read_scene
@@ -85,6 +86,20 @@ def test_a_march_from_anywhere_ends_in_the_equilibrium():
     assert [march["eccentricity_x"][-1], march["eccentricity_y"][-1]] == pytest.approx(place, abs=2e-4)
     assert march.settled
     assert "equilibrium" in march.state
+
+
+def test_pads_without_load_rest_as_in_equilibrium():
+    """At ambient cavitation pressure nothing but its alignment determines the tilt of a pad without load."""
+    pads = GROOVED | {"lobes": 5, "arc": "60 deg", "pivot": 0.5}
+    oil = {"viscosity": "15 mPa*s"}
+    scene = bearing(geometry=pads, lubricant=oil, body={"mass": "30 kg"}, load={"force": "600 N"})
+    film = free_film(scene, CELLS)
+    steady = equilibrium(film, None, tolerance=1e-10)
+    assert idle_pads(film, steady)
+    march = march_bearing(scene, cells=CELLS, end=0.1, uncertain=False, error=1e-2)
+    for axis, name in enumerate(("eccentricity_x", "eccentricity_y")):
+        assert march[name][-1] == pytest.approx(steady.place[axis] / film.wall.unit[axis], abs=1e-5)
+    assert np.abs(march["flow_imbalance"]).max() < 1e-9
 
 
 def test_less_than_a_period_or_a_few_turns_state_no_end_of_the_motion():
