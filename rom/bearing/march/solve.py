@@ -51,7 +51,7 @@ GRID_SAFETY = 4.0
 """Uncertainty by the grid over the difference to the first coarse grid."""
 
 TIME_SAFETY = 2.0
-"""Uncertainty by the time steps over the difference of two errors of a step, on the coarse grid."""
+"""Uncertainty by the time steps over the difference to longer steps, on the coarse grid."""
 
 PATH_SAFETY = 1.0
 """Least uncertainty of the extremes of a path over its differences to those of the other marches."""
@@ -118,7 +118,7 @@ def numerics_of(
     cells: tuple[int, int],
     fields: int,
 ) -> Numerics:
-    """The grid and the time steps of a march; InputError if one of them is out of range."""
+    """The grid and the time steps of a march; InputError if an end, an error or a count is out of range."""
     begin = duty.begin
     last = duty.default_end() if end is None else in_range("end", end, "s")
     if last <= begin:
@@ -128,8 +128,6 @@ def numerics_of(
         raise InputError(f"end: got {last!r} s; the table ends at {longest!r} s, give less, or motion.over_time.period")
     if duty.approach > 0 and (contact := duty.scene.geometry.thinnest / duty.approach) <= last:
         raise InputError(f"end: got {last!r} s; the walls touch at {contact!r} s, give less")
-    for name, count in zip(("cells along", "cells across"), cells, strict=True):
-        whole_in_range(name, count, MIN_CELLS, MAX_CELLS)
     if steps is not None:
         whole_in_range("steps", steps, 1, MAX_STEPS)
     if in_range("error", error, "1") > 1:
@@ -178,6 +176,8 @@ def march_bearing(
     ConvergenceError
         If a film becomes too thin, or a step does not converge.
     """
+    for name, count in zip(("cells along", "cells across"), cells, strict=True):
+        whole_in_range(name, count, MIN_CELLS, MAX_CELLS)
     duty = Duty(scene=with_coordinates(scene, cells))
     refuse_unsupported(duty)
     numerics = numerics_of(duty, end=end, error=error, steps=steps, cells=cells, fields=fields)
@@ -260,12 +260,14 @@ class _Compared:
     ----------
     coarse : that on a coarse grid.
     steps : that with longer or shorter steps on the same grid.
-    weight : error by the grid over the difference to the coarse grid, relative to that of the first coarse grid.
+    of_grid : error by the grid over the difference to the coarse grid, relative to that of the first coarse grid.
+    of_steps : error by the steps over the difference to the other steps, relative to that of longer ones.
     """
 
     coarse: Series
     steps: Series
-    weight: float
+    of_grid: float
+    of_steps: float
 
 
 def _compared(numerics: Numerics, marched: Callable[[str, Numerics, str], Series]) -> _Compared:
@@ -289,17 +291,18 @@ def _compared(numerics: Numerics, marched: Callable[[str, Numerics, str], Series
         except (InputError, ConvergenceError) as fault:
             stopped = fault
             continue
-        for steps, other in (
-            ("longer", _with_error(given, COARSER_ERROR)),
-            ("shorter", _with_error(given, FINER_ERROR)),
-        ):
+        for steps, other_error in (("longer", COARSER_ERROR), ("shorter", FINER_ERROR)):
             try:
-                following = marched(f"{name}, {steps} steps", other, "steps")
+                following = marched(f"{name}, {steps} steps", _with_error(given, other_error), "steps")
             except ConvergenceError as fault:
                 stopped = fault
                 continue
-            weight = (1 / FIRST_COARSENING - 1) / (1 / ratio - 1)
-            return _Compared(coarse=coarse, steps=following, weight=weight)
+            return _Compared(
+                coarse=coarse,
+                steps=following,
+                of_grid=(1 / FIRST_COARSENING - 1) / (1 / ratio - 1),
+                of_steps=abs((COARSER_ERROR - 1) / (other_error - 1)),
+            )
     assert stopped is not None
     raise stopped
 
@@ -313,12 +316,13 @@ def _uncertainties(duty: Duty, summary: Summary, fine: Series, others: _Compared
     """
     coarse, steps = (summary_of(duty, one).quantities for one in (others.coarse, others.steps))
     found = {
-        name: GRID_SAFETY * others.weight * abs(one.value - coarse[name].value)
-        + TIME_SAFETY * abs(coarse[name].value - steps[name].value)
+        name: GRID_SAFETY * others.of_grid * abs(one.value - coarse[name].value)
+        + TIME_SAFETY * others.of_steps * abs(coarse[name].value - steps[name].value)
         for name, one in summary.quantities.items()
     }
     times = summary.first, summary.last
-    path = others.weight * apart(duty, fine, others.coarse, *times) + apart(duty, others.coarse, others.steps, *times)
+    path = others.of_grid * apart(duty, fine, others.coarse, *times)
+    path += others.of_steps * apart(duty, others.coarse, others.steps, *times)
     unit = path_unit(duty, fine)
     least = dict.fromkeys(("eccentricity_max", "orbit_width", "orbit_height"), PATH_SAFETY * path)
     least |= {"film_min": PATH_SAFETY * path * unit, "cavitated_fraction_max": 1 / fine_cells}
