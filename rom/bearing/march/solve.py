@@ -50,8 +50,11 @@ COARSENINGS = {"coarse": FIRST_COARSENING, "finer": 0.8}
 GRID_SAFETY = 4.0
 """Uncertainty by the grid over the difference to the first coarse grid."""
 
-TIME_SAFETY = 2.0
-"""Uncertainty by the time steps over the difference to longer steps, on the coarse grid."""
+TIME_SAFETY = 1.5
+"""Uncertainty by the time steps over the difference to longer steps, on the coarse grid.
+
+Steps twice as long differ by three times the error of second order, and by the error itself of first order.
+"""
 
 PATH_SAFETY = 1.0
 """Least uncertainty of the extremes of a path over its differences to those of the other marches."""
@@ -156,7 +159,7 @@ def march_bearing(
 ) -> March:
     """March a bearing in time, with the uncertainty of its answer.
 
-    Two marches on a grid with 0.62 times the cells, of which one has larger steps, show the errors by grid and steps.
+    Two marches on a grid with 0.62 times the cells, of which one has longer steps, show the errors by grid and steps.
     Where one of them stops, shorter steps or a grid with 0.8 times the cells take its place.
 
     Parameters
@@ -376,10 +379,13 @@ def _coarser(count: int, ratio: float) -> int:
 
 
 def _with_error(numerics: Numerics, factor: float) -> Numerics:
-    """The numerics with a multiple of the error; equal steps, of second order, are √factor times as long."""
-    if numerics.error is None:
-        return replace(numerics, step=math.sqrt(factor) * numerics.step)
-    return replace(numerics, error=min(factor * numerics.error, 1.0))
+    """The numerics with a multiple of the error of a step, and with a largest step that is √factor times as long.
+
+    The error is related to the largest step, so that steps of second order are √factor times as long, whether the
+    error or the largest step limits them.
+    """
+    error = None if numerics.error is None else min(factor * numerics.error, 1.0)
+    return replace(numerics, step=math.sqrt(factor) * numerics.step, error=error)
 
 
 def _warnings(summary: Summary) -> list[str]:
