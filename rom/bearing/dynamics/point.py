@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 
 import numpy as np
 
@@ -129,8 +128,8 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
     rotation = rotation_of(scene, scene.motion.speed)
     whole = coefficients(film.solved, instant, speed=film.solved.problem.speed)
     stiff = whole.stiffness + holding(film, film.load)
-    at = partial(condensed, stiff[among], whole.damping[among], kept)
-    stiffness, damping = at(ratio * rotation)
+    coupled = stiff[among], whole.damping[among], kept
+    stiffness, damping = condensed(*coupled, ratio * rotation)
     numbers = {
         **dict(zip(named("stiffness", len(stiffness)), map(float, stiffness.flat), strict=True)),
         **dict(zip(named("damping", len(damping)), map(float, damping.flat), strict=True)),
@@ -141,7 +140,7 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
     numbers |= {name: static[name].value for name in (*STATIC, *CONTACT) if name in static and name != power}
     whirl = None
     if isinstance(scene.geometry, Shaft):
-        whirl = rigid_whirl(stiffness, damping) if kept.all() else whirl_of(at, rotation)
+        whirl = rigid_whirl(stiffness, damping) if kept.all() else whirl_of(*coupled, rotation)
     return GridPoint(
         cells=math.prod(count for count in film.whole.grid.shape if count > 1) ** 0.5, numbers=numbers, whirl=whirl
     )

@@ -12,6 +12,7 @@ from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, grid_point, rotation_of
 from roughfilm.rom.bearing.dynamics.wall_errors import wall_errors
+from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
 from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
 from roughfilm.rom.bearing.geometry.lobes import Lobes
@@ -131,14 +132,20 @@ def dynamics(
         points: list[DynamicPoint] = []
         omitted: list[Omitted] = []
         refused: InputError | ConvergenceError | None = None
+
+        def at(speed: float, pressure: float = pressure, started: dict[int, Instant] = started) -> DynamicPoint:
+            operation = at_operation(scene, speed, pressure)
+            return dynamic_point(operation, walls, pressure, resolution, frequency_ratio, started)
+
         for count, speed in enumerate(ordered):
             progress((number + count / len(ordered)) / len(pressures), f"{speed:.4g} m/s, {pressure * 1e-6:.4g} MPa")
             point = done.get((pressure, speed))
             if point is None:
                 try:
-                    operation = at_operation(scene, speed, pressure)
-                    point = dynamic_point(operation, walls, pressure, resolution, frequency_ratio, started)
+                    point = at(speed)
                 except (InputError, ConvergenceError) as error:
+                    if count == 0 and not any(pressure == kept for kept, _speed in done):
+                        refuse_overload(at, ordered)
                     omitted.append(Omitted(speed=speed, reason=str(error)))
                     refused = refused or error
                     continue

@@ -1,12 +1,13 @@
 """The stability of a rigid rotor in bearings with given stiffness and damping."""
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eig
 from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.arrays import Array
@@ -14,8 +15,14 @@ from roughfilm.contact.foundation.arrays import Array
 Matrices = tuple[Array, Array]
 """Stiffness and damping of a shaft, each of shape (2, 2), N/m and N s/m."""
 
-RATIOS = np.geomspace(0.05, 3.0, 60)
+RATIOS = np.geomspace(0.01, 10.0, 120)
 """Whirl ratios between which whirl is sought if stiffness and damping depend on the frequency."""
+
+FASTEST = 100.0
+"""Size of the roots of the motion over the rotational speed up to which they are considered."""
+
+GROWTH = 1e-9
+"""Rate of growth over the rotational speed up to which a motion is taken not to grow."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,23 +65,29 @@ def rigid_whirl(stiffness: Array, damping: Array) -> Whirl:
     return Whirl(inverse_mass=squared / k, frequency_squared=squared)
 
 
-def whirl_of(at: Callable[[float], Matrices], speed: float) -> Whirl:
-    """The whirl of a rigid rotor in a bearing whose stiffness and damping depend on the frequency.
+def whirl_of(stiffness: Array, damping: Array, kept: NDArray[np.bool_], speed: float) -> Whirl:
+    """The whirl of a rigid rotor in a bearing whose pads, without inertia, follow the shaft.
 
-    The conditions of :func:`rigid_whirl` hold with K and B at the frequency ν. Of several whirls that with the smallest
-    mass counts; whirl ratios ν/ω from 0.05 to 3 are searched.
+    The conditions of :func:`rigid_whirl` hold with K and B of the shaft at the frequency ν, see :func:`condensed`. Of
+    several whirls that with the smallest mass counts; whirl ratios ν/ω from 0.01 to 10 are searched. The rotor is
+    stable at no mass if a root s of det(K + sB + s²M) = 0 of all coordinates has a positive real part for a mass that
+    is smaller than that of any of these whirls. Damping of slow motions may be negative without such a root.
 
     Parameters
     ----------
-    at : at(ν), K and B of shape (2, 2) at a frequency, rad/s.
+    stiffness, damping : K and B of all coordinates.
+    kept : whether each coordinate is one of the two of the shaft.
     speed : rotational speed ω of the rotor, rad/s, above 0.
     """
-    slow = at(float(RATIOS[0]) * speed)
-    if not _damped(*slow):
+    at = partial(condensed, stiffness, damping, kept)
+    fast, slow = at(float(RATIOS[-1]) * speed), at(float(RATIOS[0]) * speed)
+    mass = abs(_whirl_stiffness(*fast)) / (RATIOS[-1] * speed) ** 2
+    if _grows(stiffness, damping, kept, mass, speed):
         return Whirl(inverse_mass=math.inf, frequency_squared=math.nan)
 
     def excess(ratio: float) -> float:
-        return _frequency_squared(*at(ratio * speed)) / speed**2 - ratio**2
+        k, b = at(ratio * speed)
+        return _detuned(k, b) - float(np.linalg.det(b)) * (ratio * speed) ** 2
 
     values = [excess(float(ratio)) for ratio in RATIOS]
     found = []
@@ -87,7 +100,21 @@ def whirl_of(at: Callable[[float], Matrices], speed: float) -> Whirl:
     if found:
         return max(found, key=lambda whirl: whirl.inverse_mass)
     squared = min(_frequency_squared(*slow), 0.0)
-    return Whirl(inverse_mass=squared / _whirl_stiffness(*slow), frequency_squared=squared)
+    return Whirl(inverse_mass=squared / abs(_whirl_stiffness(*slow)), frequency_squared=squared)
+
+
+def _grows(stiffness: Array, damping: Array, kept: NDArray[np.bool_], mass: float, speed: float) -> bool:
+    """Whether a root s of det(K + sB + s²M) = 0 with a mass on the kept coordinates has a positive real part.
+
+    Roots beyond ``FASTEST`` times the speed, as those of pads without pressure or damping, are left out.
+    """
+    held = np.eye(len(kept))[:, kept]
+    none, one = np.zeros(held.shape), np.eye(held.shape[1])
+    left = np.block([[stiffness, none], [none.T, one]])
+    right = np.block([[-damping, -mass * held], [held.T, np.zeros(one.shape)]])
+    top, bottom = eig(left, right, right=False, homogeneous_eigvals=True)
+    finite = np.abs(top) < FASTEST * speed * np.abs(bottom)
+    return bool(((top[finite] / bottom[finite]).real > GROWTH * speed).any())
 
 
 def _damped(stiffness: Array, damping: Array) -> bool:
@@ -107,11 +134,16 @@ def _whirl_stiffness(stiffness: Array, damping: Array) -> float:
     return float((kxx * byy + kyy * bxx - kxy * byx - kyx * bxy) / (bxx + byy))
 
 
-def _frequency_squared(stiffness: Array, damping: Array) -> float:
-    """The square ν² of the frequency at the limit of stability, rad²/s²."""
+def _detuned(stiffness: Array, damping: Array) -> float:
+    """(Kxx - k)(Kyy - k) - Kxy Kyx, which is ν² det B at the limit of stability, N²/m²."""
     k = _whirl_stiffness(stiffness, damping)
     (kxx, kxy), (kyx, kyy) = stiffness
-    return float(((kxx - k) * (kyy - k) - kxy * kyx) / np.linalg.det(damping))
+    return float((kxx - k) * (kyy - k) - kxy * kyx)
+
+
+def _frequency_squared(stiffness: Array, damping: Array) -> float:
+    """The square ν² of the frequency at the limit of stability, rad²/s²."""
+    return _detuned(stiffness, damping) / float(np.linalg.det(damping))
 
 
 def condensed(stiffness: Array, damping: Array, kept: NDArray[np.bool_], frequency: float) -> Matrices:

@@ -3,12 +3,14 @@
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from math import inf
 
 import numpy as np
 
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
@@ -198,6 +200,8 @@ def stribeck(
                 except (InputError, ConvergenceError) as error:
                     if touches:
                         raise
+                    if number == 0 and not any(pressure == kept for kept, _speed in done):
+                        refuse_overload(partial(_solved, search, pressure), ordered)
                     refused[pressure] = error
                     continue
                 point = stribeck_point(state, search, pressure)
@@ -221,6 +225,10 @@ def stribeck(
         lift_off = LiftOff(speed=speed, uncertainty=abs(speed - coarse_speed) + of_factors)
         finished.append(StribeckCurve(pressure=pressure, points=tuple(points), lift_off=lift_off))
     return tuple(finished)
+
+
+def _solved(search: Search, pressure: float, speed: float) -> MixedState:
+    return search.solved(speed, pressure, ())
 
 
 def curve_search(

@@ -1,12 +1,20 @@
-"""Direct solution of the balances of a film: a band matrix, and the first row of a periodic film apart."""
+"""Direct solution of the balances of a film: by bands, or by a sparse matrix where it closes to a wide ring."""
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csc_array
+from scipy.sparse.linalg import splu
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.newton import Linear
+
+WIDE = 48
+"""Largest number of nodes across a ring that is solved by bands."""
+
+PIVOT_THRESHOLD = 0.1
+"""Size of a diagonal entry over the largest of its column from which on it is taken as the pivot of a ring."""
 
 
 @compiled
@@ -101,6 +109,32 @@ def substitute(bands, pivots, sides):  # type: ignore[no-untyped-def]
                 rest[r] -= upper[r] * value
 
 
+@compiled
+def write_ring(known, centre, west, east, south, north, values, columns, begins):  # type: ignore[no-untyped-def]
+    """Write the matrix of a film that is periodic in x by rows; returns the number of its entries."""
+    nx, ny = centre.shape
+    count = 0
+    for i in range(nx):
+        before, after = (i - 1) % nx, (i + 1) % nx
+        for j in range(ny):
+            begins[i * ny + j] = count
+            values[count], columns[count] = (1.0 if known[i, j] else centre[i, j]), i * ny + j
+            count += 1
+            if known[i, j]:
+                continue
+            for row, column, part in (
+                (before, j, west[i, j]),
+                (after, j, east[i, j]),
+                (i, j - 1, south[i, j]),
+                (i, j + 1, north[i, j]),
+            ):
+                if 0 <= column < ny and not known[row, column]:
+                    values[count], columns[count] = part, row * ny + column
+                    count += 1
+    begins[nx * ny] = count
+    return count
+
+
 class Bands:
     """The factors of the matrix of :class:`roughfilm.rom.cavitation.newton.Linear`, of a film not periodic in y.
 
@@ -177,6 +211,41 @@ class Bands:
             sides[:, ny:] = rest - np.einsum("sj,jn->sn", own, self.spread)
         changes = np.moveaxis(sides.reshape(-1, nx, ny), 0, -1)
         return np.roll(changes, self.first, axis=0) if self.first else changes
+
+
+class Ring:
+    """The factors of the matrix of a wide film that is periodic in x, by SuperLU.
+
+    The order of elimination has the least degree, so that 256 × 129 nodes take a tenth of the time of bands, whose last
+    row is full; up to about 40 nodes across bands are faster. Parameters and errors are those of :class:`Bands`.
+    """
+
+    def __init__(self, linear: Linear, known: NDArray[np.bool_]) -> None:
+        self.shape = linear.centre.shape
+        count = linear.centre.size
+        values, columns = np.empty(5 * count), np.empty(5 * count, dtype=np.int32)
+        begins = np.empty(count + 1, dtype=np.int32)
+        parts = (linear.centre, linear.west, linear.east, linear.south, linear.north)
+        entries = write_ring(known, *parts, values, columns, begins)
+        transposed = csc_array((values[:entries], columns[:entries], begins), shape=(count, count))
+        options = {"SymmetricMode": True}
+        try:
+            self.factors = splu(
+                transposed, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=PIVOT_THRESHOLD, options=options
+            )
+        except RuntimeError:
+            raise _singular() from None
+
+    def solve(self, sources: Array) -> Array:
+        """The changes of the unknowns for right-hand sides, each of shape (nx, ny) in the last axis."""
+        sides = sources.reshape(self.shape[0] * self.shape[1], -1)
+        return np.asarray(self.factors.solve(np.asfortranarray(sides), trans="T").reshape(sources.shape))
+
+
+def factors_of(linear: Linear, known: NDArray[np.bool_], *, periodic: bool) -> Bands | Ring:
+    """The factors of the matrix of a film, which is a ring if it is periodic in x without a row of known nodes."""
+    ring = periodic and not known.all(axis=1).any()
+    return Ring(linear, known) if ring and known.shape[1] > WIDE else Bands(linear, known, periodic=periodic)
 
 
 def _singular() -> ConvergenceError:

@@ -10,7 +10,7 @@ from roughfilm.contact.foundation.arrays import Array, finite_arithmetic
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advance, settle_bank
 from roughfilm.rom.cavitation.discretise import Faces
-from roughfilm.rom.cavitation.motion.bands import Bands
+from roughfilm.rom.cavitation.motion.bands import Bands, Ring, factors_of
 from roughfilm.rom.cavitation.motion.contact import ContactForce
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.network import Network, State
@@ -137,7 +137,7 @@ class Trial:
     network: Network = field(init=False)
     linear: Linear = field(init=False)
     largest: float = field(init=False)
-    factors: Bands | None = None
+    factors: Bands | Ring | None = None
     columns: Array | None = None
 
     def sample(self) -> Self:
@@ -256,7 +256,7 @@ class Trial:
         within = [film.covered[number] for number in film.restricted]
         columns = [self.linear.image(nodes.astype(float))[..., None] for nodes in within]
         if self.factors is None:
-            self.factors = Bands(self.linear, known[..., 0], periodic=self.network.periodic[0])
+            self.factors = factors_of(self.linear, known[..., 0], periodic=self.network.periodic[0])
         change = self.factors.solve(np.where(known, 0.0, np.concatenate([sources, *columns], axis=-1)))
         if not within:
             return Response(change=change, pressures=np.zeros((0, sources.shape[-1])))

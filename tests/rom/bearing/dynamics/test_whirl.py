@@ -76,7 +76,7 @@ def test_condensed_pads_follow_without_force():
 def test_the_whirl_of_a_shaft_on_pads_is_where_its_eigenvalues_cross():
     k, b = pads()
     kept = np.array([True, True, False, False])
-    whirl = whirl_of(lambda frequency: condensed(k, b, kept, frequency), 1.0)
+    whirl = whirl_of(k, b, kept, 1.0)
     assert whirl.inverse_mass > 0
     frequency = math.sqrt(whirl.frequency_squared)
     inertia = np.diag([1.0, 1.0, 0, 0]) * frequency**2 / whirl.inverse_mass
@@ -84,9 +84,50 @@ def test_the_whirl_of_a_shaft_on_pads_is_where_its_eigenvalues_cross():
     assert singular[-1] < 1e-8 * singular[0]
 
 
+def motion(mass: float, stiffness: np.ndarray, damping: np.ndarray) -> float:
+    """The largest real part of the roots of M z'' + B z' + K z = 0 with a mass on two coordinates only."""
+    count = len(stiffness)
+    inverse = np.linalg.inv(damping[2:, 2:])
+    along, pads_of = damping[:2, :2] - damping[:2, 2:] @ inverse @ damping[2:, :2], inverse @ damping[2:, :2]
+    matrix = np.zeros((count + 2, count + 2))  # velocities of the shaft, then all coordinates
+    pulled = stiffness[:2] - damping[:2, 2:] @ inverse @ stiffness[2:]
+    matrix[:2, :2], matrix[:2, 2:] = -along / mass, -pulled / mass
+    matrix[2:4, :2] = np.eye(2)
+    matrix[4:, :2], matrix[4:, 2:] = -pads_of, -inverse @ stiffness[2:]
+    return float(np.linalg.eigvals(matrix).real.max())
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_a_rotor_on_pads_is_stable_exactly_below_the_critical_mass(seed):
+    rng = np.random.default_rng(seed)
+    root = rng.normal(size=(4, 4))
+    b = root @ root.T + 0.1 * np.eye(4)
+    k = np.diag(rng.uniform(1, 4, 4)) + rng.uniform(0.2, 1.2) * rng.normal(size=(4, 4))
+    whirl = whirl_of(k, b, np.array([True, True, False, False]), 1.0)
+    if math.isinf(whirl.inverse_mass):
+        assert motion(1e-3, k, b) > 0
+    elif whirl.inverse_mass > 0:
+        assert motion(0.95 / whirl.inverse_mass, k, b) < 0 < motion(1.05 / whirl.inverse_mass, k, b)
+    else:
+        assert max(motion(mass, k, b) for mass in (1e-2, 1.0, 1e2)) < 0
+
+
+def test_negative_damping_of_slow_motions_alone_leaves_a_light_rotor_stable():
+    """A soft pad that opposes its shaft takes energy out of the motion again where it cannot follow."""
+    k = np.array([[2.0, 0.0, 0.3], [0.0, 2.0, 0.0], [-0.3, 0.0, 0.05]])
+    b = np.diag([0.5, 0.5, 0.4])
+    slow = condensed(k, b, np.array([True, True, False]), 1e-3)[1]
+    assert slow[0, 0] < 0
+    assert math.isfinite(whirl_of(k, b, np.array([True, True, False]), 1.0).inverse_mass)
+    assert motion(1e-3, k, b) < 0
+
+
 def test_pads_that_do_not_move_leave_the_whirl_of_the_shaft():
+    kept = np.array([True, True, False])
     for turned in (K, (K + K.T) / 2 + 4 * np.eye(2)):
-        whirl, rigid = whirl_of(lambda _frequency, k=turned: (k, B), 1.0), rigid_whirl(turned, B)
+        k, b = np.eye(3), np.eye(3)
+        k[:2, :2], b[:2, :2] = turned, B
+        whirl, rigid = whirl_of(k, b, kept, 1.0), rigid_whirl(turned, B)
         if rigid.inverse_mass > 0:
             assert whirl.inverse_mass == pytest.approx(rigid.inverse_mass, rel=1e-9)
             assert whirl.frequency_squared == pytest.approx(rigid.frequency_squared, rel=1e-9)

@@ -1,4 +1,4 @@
-"""Direct solutions by bands against a general sparse solver."""
+"""Direct solutions by bands, and of rings, against a general sparse solver."""
 
 from dataclasses import replace
 
@@ -8,7 +8,7 @@ from scipy.sparse import lil_array
 from scipy.sparse.linalg import spsolve
 
 from roughfilm.contact.foundation.errors import ConvergenceError
-from roughfilm.rom.cavitation.motion.bands import Bands
+from roughfilm.rom.cavitation.motion.bands import Bands, Ring, factors_of
 from roughfilm.rom.cavitation.newton import Linear
 
 
@@ -74,9 +74,21 @@ def test_rows_are_exchanged_where_the_diagonal_is_small(periodic):
     np.testing.assert_allclose(bands.solve(sources), by_sparse(linear, known, sources), rtol=1e-9, atol=1e-10)
 
 
-def test_a_singular_matrix_is_an_error_in_one_line():
-    linear = system((5, 2), periodic=False, seed=0)
+def test_wide_rings_are_solved_by_a_sparse_solver():
+    linear = system((9, 60), periodic=True, seed=6)
+    known = np.random.default_rng(7).random((9, 60)) < 0.2
+    sources = np.where(known[..., None], 0.0, np.random.default_rng(8).normal(size=(9, 60, 3)))
+    factors = factors_of(linear, known, periodic=True)
+    assert isinstance(factors, Ring)
+    np.testing.assert_allclose(factors.solve(sources), by_sparse(linear, known, sources), rtol=1e-11, atol=1e-12)
+    known[4] = True
+    assert isinstance(factors_of(linear, known, periodic=True), Bands)
+
+
+@pytest.mark.parametrize(("shape", "periodic"), [((5, 2), False), ((5, 2), True), ((5, 60), True)])
+def test_a_singular_matrix_is_an_error_in_one_line(shape, periodic):
+    linear = system(shape, periodic=periodic, seed=0)
     for part in (linear.centre, linear.west, linear.east, linear.south, linear.north):
         part[2] = 0.0
     with pytest.raises(ConvergenceError, match="the matrix of the film is singular"):
-        Bands(linear, np.zeros((5, 2), dtype=bool), periodic=False)
+        factors_of(linear, np.zeros(shape, dtype=bool), periodic=periodic)
