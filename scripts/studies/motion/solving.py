@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,7 +14,10 @@ from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
 from roughfilm.rom.bearing.free.evaluated import evaluated
 from roughfilm.rom.bearing.free.film import FreeFilm, free_film
 from roughfilm.rom.bearing.free.solve import FreeSolution
-from roughfilm.rom.bearing.march.solve import march_bearing
+from roughfilm.rom.bearing.march.course import Duty
+from roughfilm.rom.bearing.march.series import run
+from roughfilm.rom.bearing.march.solve import march_bearing, numerics_of
+from roughfilm.rom.bearing.march.summary import summary_of
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.motion.coupled import Instant
@@ -33,7 +36,7 @@ MARCH_RATIOS = ((1.5, 1.5), (2.2, 2.2))
 """The same of a march."""
 
 TIGHTER = 8.0
-"""Error of a step of the answer over that of a truth."""
+"""Error of a step of the answer over that of a truth, whose largest step is √8 times shorter too."""
 
 TURNS: Mapping[str, float] = {"attitude_angle": 360.0, "film_min_angle": 360.0, "film_start": 1.0, "rupture": 1.0}
 """Period of quantities that are places around a full bore."""
@@ -159,11 +162,12 @@ def march_truth(scene: Bearing, end: float, cells: int, error: float) -> Truth:
     ----------
     error : error of a step of the answer; that of the truth is ``TIGHTER`` times smaller.
     """
-    levels = []
+    duty, levels = Duty(scene=scene), []
     for along, across in MARCH_RATIOS:
         grid = (2 * round(along * cells / 2), 2 * round(across * cells / 4))
-        march = march_bearing(scene, end=end, cells=grid, error=error / TIGHTER, uncertain=False)
-        levels.append({name: one.value for name, one in march.quantities.items()})
+        given = numerics_of(duty, end=end, error=error / TIGHTER, steps=None, cells=grid, fields=0)
+        series = run(duty, replace(given, step=given.step / math.sqrt(TIGHTER)))
+        levels.append({name: one.value for name, one in summary_of(duty, series).quantities.items()})
     return extrapolated(levels, MARCH_RATIOS)
 
 

@@ -1,6 +1,6 @@
 """Pages that commands write in a test have empty figures.
 
-Fixtures that a module shares draw theirs where they do not say otherwise, and
+Fixtures that a module shares draw their figures unless they call ``empty_figures`` too, and
 ``tests/roughfilm/pages/test_browser.py`` draws a page of every kind.
 """
 

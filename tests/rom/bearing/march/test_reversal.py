@@ -57,7 +57,7 @@ def test_what_enters_leaves_or_is_stored_at_every_step(pin):
 
 
 def test_the_mirrored_scene_with_the_opposite_speed_is_the_mirror_image(pin):
-    """The mirrored shaft sees the two grooves in the other order."""
+    """The mirrored shaft passes the two grooves in the other order."""
     image = marched(swinging(-1), fields=4)
     for name in set(pin.series.units) - NOISE:
         sign, other = -1 if name in MIRRORED else 1, SWAPPED.get(name, name)
