@@ -111,7 +111,7 @@ class Advice:
     spent_cpu_s : CPU time of all runs, s.
     omitted : by model, the effect that it leaves out and that the laws do not count, whose part is subtracted from the
         tolerance.
-    in_time : what a load over time means; None for a steady scene.
+    in_time : what a motion in time means; None for a steady scene.
     """
 
     quantity: str

@@ -5,11 +5,11 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.free.idle import idle_pads
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.quantities import scene_positions
-from roughfilm.rom.bearing.totals.pads import unloaded
 from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Instant
 
@@ -65,13 +65,11 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
             remedy = f"change load.moment_x or load.moment_y, or {remedy}"
         return InputError(f"{given}; no tilt balances the moments, the film closes at {place}; {remedy}")
     if isinstance(geometry, Lobes) and geometry.pivot is not None:
-        solution = film.solution(instant)
-        above = solution.grid.areas * (solution.state.pressure + film.scene.lubricant.cavitation_pressure)
-        pad = int(geometry.lobe(scene_positions(solution)[i])) + 1
-        if pad in unloaded(geometry, scene_positions(solution), above):
+        pad = int(geometry.lobe(scene_positions(film.solution(instant))[i]))
+        if pad in idle_pads(film, instant):
             return InputError(
-                f"geometry: pad {pad} carries no load, and at every tilt the suction of its film draws an edge of it "
-                "onto the shaft; raise the preload, move the pivot behind the middle, or set "
+                f"geometry: pad {pad + 1} carries no load, and at every tilt the suction of its film draws an edge of "
+                "it onto the shaft; raise the preload, move the pivot behind the middle, or set "
                 "lubricant.cavitation_pressure to 0 Pa, at which air enters"
             )
     if least >= CLOSEST * film.wall.unit[0]:

@@ -60,7 +60,7 @@ def remedy(scene: Bearing) -> str:
     geometry = scene.geometry
     if isinstance(geometry, Tilting):
         if geometry.slopes is not None:
-            return "give smaller geometry.slopes, below 0 along the sliding, leave them out, or take more cells"
+            return "give smaller geometry.slopes by which the film narrows, leave them out, or take more cells"
         if scene.load is not None and (scene.load.moment_x or scene.load.moment_y):
             return "lower load.moment_x and load.moment_y, take another pivot, or more cells"
         return "take more cells, or another pivot"

@@ -3,9 +3,7 @@
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
-from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.rigid import MovingWall, RigidWall
 from roughfilm.rom.bearing.scene import Bearing
 
@@ -16,15 +14,8 @@ def wall_of(scene: Bearing, film: float | None = None) -> RigidWall:
     Parameters
     ----------
     film : the least film thickness, m; by default that of the scene, or that expected under its load.
-
-    Raises
-    ------
-    InputError
-        For shape = "journal", whose load has no direction.
     """
     geometry = scene.geometry
-    if isinstance(geometry, Journal):
-        raise InputError("geometry.shape: got 'journal', whose load has no direction; take shape = 'lobes'")
     if film is None:
         film = geometry.film if geometry.film is not None else expected_scene(scene).geometry.thinnest
     return RigidWall(

@@ -129,6 +129,10 @@ class Duty:
             return value if polar else value * radius
         return value / radius if polar else value
 
+    def sliding_speed(self, time: float) -> float:
+        """The sliding speed as that of a scene, m/s."""
+        return self.speed(time) * (1.0 if self.lobes else self.scene.turning_radius or 1.0)
+
     def turned_by(self, time: float) -> tuple[float, float, float]:
         """The angle of the shaft since the first time, rad, its rotational speed, rad/s, and acceleration, rad/s²."""
         radius, curve = self.scene.turning_radius or 1.0, self.curves.get("speed")
@@ -302,9 +306,8 @@ def film_at(duty: Duty, cells: tuple[int, int], walls: Walls | None = None) -> F
     between = walls or Walls()
     made = partial(free_film, cells=cells, film=between.film, contact=between.contact, closest=between.closest)
     scene, start = duty.scene, duty.body.start or Start()
-    speeds = duty.curves["speed"].cubic(duty.curves["speed"].cubic.x) if "speed" in duty.curves else [0.0]
-    radius = scene.turning_radius or 1.0
-    speed = duty.speed(duty.begin) * (1.0 if duty.lobes else radius) or float(max(speeds, key=abs))
+    times = duty.curves["speed"].cubic.x if "speed" in duty.curves else [duty.begin]
+    speed = duty.sliding_speed(duty.begin) or max((duty.sliding_speed(float(time)) for time in times), key=abs)
     at_start = scene.model_copy(
         update={
             "motion": scene.motion.model_copy(update={"speed": speed, "approach": 0.0}),

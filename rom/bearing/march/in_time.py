@@ -30,6 +30,13 @@ AT_REST = 1e-6
 LOADS, SPEEDS, PATH, APPROACH = "load over time", "speed over time", "path over time", "approach"
 """The beginnings of the sentences."""
 
+MISSING = {
+    LOADS: "not every load has a film in equilibrium",
+    SPEEDS: "not every speed has a film in equilibrium",
+    PATH: "not every place has a film at rest",
+}
+"""Why squeeze is not compared with films without it."""
+
 JUDGED = {
     LOADS: "models are judged at the largest load",
     SPEEDS: "models are judged at the least film",
@@ -59,6 +66,8 @@ def in_time(scene: Bearing, within: float) -> InTime | None:
         duty = Duty(scene=with_coordinates(scene, CELLS))
         if given == PATH:
             found = loads_on_path(duty)
+            if not found.carries_at_rest:
+                return _alone(given, "squeeze alone gives the film its load; take roughfilm march")
             return _stated(given, "load", found.change, found.squeeze_number, within)
         moved = quasi_static(duty)
         try:
@@ -66,10 +75,14 @@ def in_time(scene: Bearing, within: float) -> InTime | None:
         except ConvergenceError as error:
             marched, stop = None, error
     except (InputError, ConvergenceError) as error:
-        missing = "not every place has a film at rest" if given == PATH else "not every load has a film in equilibrium"
-        line = f"{given}: {missing} ({error}); take roughfilm march"
-        return InTime(lines=(line, f"{given}: {JUDGED[given]}"), entries={"quasi_static": None})
+        return _alone(given, f"{MISSING[given]} ({error}); take roughfilm march")
     return _stated(given, "least film", moved.change, moved.squeeze_number, within, marched, stop)
+
+
+def _alone(given: str, words: str) -> InTime:
+    """The sentences on a motion whose films are not compared with films at rest."""
+    judged = (f"{given}: {JUDGED[given]}",) if given in JUDGED else ()
+    return InTime(lines=(f"{given}: {words}", *judged), entries={"quasi_static": None})
 
 
 def _given(scene: Bearing) -> str | None:
@@ -154,16 +167,18 @@ def _of_approach(scene: Bearing, within: float) -> InTime:
     loaded, approach = scene.load is not None, scene.motion.approach
     quantity = "least film" if loaded else "load"
     if scene.motion.speed == 0 and not scene.supply:
-        line = f"approach: squeeze alone gives the film its pressure; its {quantity} follows the rate of approach"
-        return InTime(lines=(line,), entries={"quasi_static": None})
+        return _alone(
+            APPROACH, f"squeeze alone gives the film its pressure; its {quantity} follows the rate of approach"
+        )
     try:
         with_it, without = (_carried(one) for one in (scene, _at_rest(scene)))
     except (InputError, ConvergenceError) as error:
-        line = f"approach: walls at rest have no such film ({error}); the approach is needed"
-        return InTime(lines=(line,), entries={"quasi_static": None})
-    change = with_it / without - 1 if without > 0 else math.inf
+        return _alone(APPROACH, f"walls at rest have no such film ({error}); the approach is needed")
+    if without <= 0:
+        return _alone(APPROACH, "without it the film carries no load; the approach is needed")
+    change = with_it / without - 1
     enough = abs(change) <= within
-    size = f"by {100 * abs(change):.2g} %" if abs(change) <= MAX_CHANGE else f"to {with_it / without:.2g} times"
+    size = f"by {100 * change:+.2g} %" if abs(change) <= MAX_CHANGE else f"to {with_it / without:.2g} times"
     rate = within / abs(change) * abs(approach) if change else math.inf
     moved = f"up to about {rate:.2g} m/s" if enough else f"below about {rate:.2g} m/s it may be"
     verdict = "may be left out" if enough else "may not be left out"
@@ -221,21 +236,15 @@ def steady(scene: Bearing) -> Bearing:
                 f"motion.over_time.speed: got {duty.speed(at):.4g} m/s at {at:.4g} s with the largest load, which no "
                 "steady film carries then; take roughfilm march, or another speed then"
             )
-    motion = scene.motion.model_copy(update={"speed": _speed(duty, at), "over_time": None})
+    motion = scene.motion.model_copy(update={"speed": duty.sliding_speed(at), "over_time": None})
     return scene.model_copy(update={"load": duty.steady_load(at), "motion": motion, "body": None})
-
-
-def _speed(duty: Duty, time: float) -> float:
-    """The sliding speed of the scene at a time, m/s."""
-    radius = duty.scene.turning_radius
-    return duty.speed(time) * (radius if not duty.lobes and radius is not None else 1.0)
 
 
 def _on_path(scene: Bearing, duty: Duty, found: PathLoads) -> Bearing:
     """The scene at the place of a path at which the load is largest."""
-    number = int(np.argmax(found.load))
+    number = found.largest
     geometry, place = scene.geometry, found.place[number]
-    speed = _speed(duty, float(found.time[number]))
+    speed = duty.sliding_speed(float(found.time[number]))
     motion = scene.motion.model_copy(update={"speed": speed, "over_time": None})
     if isinstance(geometry, MovingWall):
         moved = scene.moved(geometry.at(place))

@@ -1,5 +1,6 @@
 """Paths over time: the load of the film at each place, and how much squeeze changes it."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,9 +23,10 @@ class PathLoads:
     time : times, s.
     place : the coordinates of the wall at each time, shape (times, coordinates); free tilts are in equilibrium.
     velocity : their rates, m/s (rad/s).
-    load : force of the film of a wall at rest, N (N/m if infinitely wide).
+    load : force of the film of a wall at rest, N (N/m if infinitely wide), below 0 where it draws a wall closer.
     moved : the same with squeeze, to first order in the velocity.
-    squeeze_number : largest ratio of the force by squeeze to the largest force of a wall at rest.
+    squeeze_number : largest ratio of the force by squeeze to the largest force of a wall at rest; infinite if a wall at
+        rest carries no load.
     """
 
     time: Array
@@ -35,9 +37,19 @@ class PathLoads:
     squeeze_number: float
 
     @property
+    def carries_at_rest(self) -> bool:
+        """Whether the film of a wall at rest carries a load anywhere."""
+        return bool(self.load.max() > 0)
+
+    @property
     def change(self) -> float:
-        """The relative change of the largest load by squeeze."""
-        return float(self.moved.max() / self.load.max() - 1)
+        """The relative change of the largest load by squeeze; infinite if a wall at rest carries no load."""
+        return float(self.moved.max() / self.load.max() - 1) if self.carries_at_rest else math.inf
+
+    @property
+    def largest(self) -> int:
+        """The number of the place with the largest load, with squeeze if a wall at rest carries none."""
+        return int(np.argmax(self.load if self.carries_at_rest else self.moved))
 
 
 def loads_on_path(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TIMES) -> PathLoads:
@@ -80,12 +92,17 @@ def loads_on_path(duty: Duty, *, cells: tuple[int, int] = CELLS, times: int = TI
         np.array([placed.solved.force(state.state.pressure) for placed, state in states]),
         np.array(moving),
     )
-    load, by_squeeze = (np.linalg.norm(one[:, still], axis=1) for one in (forces, squeezed))
+    load, moved, by_squeeze = (_sizes(one[:, still]) for one in (forces, forces + squeezed, squeezed))
     return PathLoads(
         time=time,
         place=place,
         velocity=velocity,
         load=load,
-        moved=np.linalg.norm((forces + squeezed)[:, still], axis=1),
-        squeeze_number=float(by_squeeze.max() / load.max()) if load.max() > 0 else np.inf,
+        moved=moved,
+        squeeze_number=float(np.abs(by_squeeze).max() / load.max()) if load.max() > 0 else math.inf,
     )
+
+
+def _sizes(forces: Array) -> Array:
+    """The sizes of forces on a shaft, shape (times, 2), or the force on a wall that moves along its normal."""
+    return forces[:, 0] if forces.shape[1] == 1 else np.asarray(np.linalg.norm(forces, axis=1))

@@ -51,8 +51,11 @@ COARSENINGS = {"coarse": FIRST_COARSENING, "finer": 0.8}
 GRID_SAFETY = 4.0
 """Uncertainty by the grid over the difference to the first coarse grid."""
 
-TIME_SAFETY = 2.0
-"""Uncertainty by the time steps over the difference of two errors of a step, on the coarse grid."""
+TIME_SAFETY = 1.5
+"""Uncertainty by the time steps over the difference to longer steps, on the coarse grid.
+
+Steps twice as long differ by three times the error of second order, and by the error itself of first order.
+"""
 
 PATH_SAFETY = 1.0
 """Least uncertainty of the extremes of a path over its differences to those of the other marches."""
@@ -119,7 +122,7 @@ def numerics_of(
     cells: tuple[int, int],
     fields: int,
 ) -> Numerics:
-    """The grid and the time steps of a march; InputError if one of them is out of range."""
+    """The grid and the time steps of a march; InputError if an end, an error or a count is out of range."""
     begin = duty.begin
     last = duty.default_end() if end is None else in_range("end", end, "s")
     if last <= begin:
@@ -129,8 +132,6 @@ def numerics_of(
         raise InputError(f"end: got {last!r} s; the table ends at {longest!r} s, give less, or motion.over_time.period")
     if duty.approach > 0 and (contact := duty.scene.geometry.thinnest / duty.approach) <= last:
         raise InputError(f"end: got {last!r} s; the walls touch at {contact!r} s, give less")
-    for name, count in zip(("cells along", "cells across"), cells, strict=True):
-        whole_in_range(name, count, MIN_CELLS, MAX_CELLS)
     if steps is not None:
         whole_in_range("steps", steps, 1, MAX_STEPS)
     if in_range("error", error, "1") > 1:
@@ -159,7 +160,7 @@ def march_bearing(
 ) -> March:
     """March a bearing in time, with the uncertainty of its answer.
 
-    Two marches on a grid with 0.62 times the cells, of which one has larger steps, show the errors by grid and steps.
+    Two marches on a grid with 0.62 times the cells, of which one has longer steps, show the errors by grid and steps.
     Where one of them stops, shorter steps or a grid with 0.8 times the cells take its place.
 
     Parameters
@@ -179,6 +180,8 @@ def march_bearing(
     ConvergenceError
         If a film becomes too thin, or a step does not converge.
     """
+    for name, count in zip(("cells along", "cells across"), cells, strict=True):
+        whole_in_range(name, count, MIN_CELLS, MAX_CELLS)
     duty = Duty(scene=with_coordinates(scene, cells))
     refuse_unsupported(duty)
     numerics = numerics_of(duty, end=end, error=error, steps=steps, cells=cells, fields=fields)
@@ -271,12 +274,14 @@ class _Compared:
     ----------
     coarse : that on a coarse grid.
     steps : that with longer or shorter steps on the same grid.
-    weight : error by the grid over the difference to the coarse grid, relative to that of the first coarse grid.
+    of_grid : error by the grid over the difference to the coarse grid, relative to that of the first coarse grid.
+    of_steps : error by the steps over the difference to the other steps, relative to that of longer ones.
     """
 
     coarse: Series
     steps: Series
-    weight: float
+    of_grid: float
+    of_steps: float
 
 
 def _compared(numerics: Numerics, marched: Callable[[str, Numerics, str], Series]) -> _Compared:
@@ -300,17 +305,18 @@ def _compared(numerics: Numerics, marched: Callable[[str, Numerics, str], Series
         except (InputError, ConvergenceError) as fault:
             stopped = fault
             continue
-        for steps, other in (
-            ("longer", _with_error(given, COARSER_ERROR)),
-            ("shorter", _with_error(given, FINER_ERROR)),
-        ):
+        for steps, other_error in (("longer", COARSER_ERROR), ("shorter", FINER_ERROR)):
             try:
-                following = marched(f"{name}, {steps} steps", other, "steps")
+                following = marched(f"{name}, {steps} steps", _with_error(given, other_error), "steps")
             except ConvergenceError as fault:
                 stopped = fault
                 continue
-            weight = (1 / FIRST_COARSENING - 1) / (1 / ratio - 1)
-            return _Compared(coarse=coarse, steps=following, weight=weight)
+            return _Compared(
+                coarse=coarse,
+                steps=following,
+                of_grid=(1 / FIRST_COARSENING - 1) / (1 / ratio - 1),
+                of_steps=abs((COARSER_ERROR - 1) / (other_error - 1)),
+            )
     assert stopped is not None
     raise stopped
 
@@ -324,12 +330,13 @@ def _uncertainties(duty: Duty, summary: Summary, fine: Series, others: _Compared
     """
     coarse, steps = (summary_of(duty, one).quantities for one in (others.coarse, others.steps))
     found = {
-        name: GRID_SAFETY * others.weight * abs(one.value - coarse[name].value)
-        + TIME_SAFETY * abs(coarse[name].value - steps[name].value)
+        name: GRID_SAFETY * others.of_grid * abs(one.value - coarse[name].value)
+        + TIME_SAFETY * others.of_steps * abs(coarse[name].value - steps[name].value)
         for name, one in summary.quantities.items()
     }
     times = summary.first, summary.last
-    path = others.weight * apart(duty, fine, others.coarse, *times) + apart(duty, others.coarse, others.steps, *times)
+    path = others.of_grid * apart(duty, fine, others.coarse, *times)
+    path += others.of_steps * apart(duty, others.coarse, others.steps, *times)
     unit = path_unit(duty, fine)
     least = dict.fromkeys(("eccentricity_max", "orbit_width", "orbit_height"), PATH_SAFETY * path)
     least |= {"film_min": PATH_SAFETY * path * unit, "cavitated_fraction_max": 1 / fine_cells}
@@ -383,10 +390,13 @@ def _coarser(count: int, ratio: float) -> int:
 
 
 def _with_error(numerics: Numerics, factor: float) -> Numerics:
-    """The numerics with a multiple of the error; equal steps, of second order, are √factor times as long."""
-    if numerics.error is None:
-        return replace(numerics, step=math.sqrt(factor) * numerics.step)
-    return replace(numerics, error=min(factor * numerics.error, 1.0))
+    """The numerics with a multiple of the error of a step, and with a largest step that is √factor times as long.
+
+    The error is related to the largest step, so that steps of second order are √factor times as long, whether the
+    error or the largest step limits them.
+    """
+    error = None if numerics.error is None else min(factor * numerics.error, 1.0)
+    return replace(numerics, step=math.sqrt(factor) * numerics.step, error=error)
 
 
 def _warnings(summary: Summary) -> list[str]:

@@ -11,7 +11,7 @@ from roughfilm.rom.bearing.geometry.shapes import AnyShape
 from roughfilm.rom.bearing.moving.body import Body, Start
 from roughfilm.rom.bearing.moving.over_time import OverTime
 
-OF_LOBES = frozenset({"angle", "load_x", "load_y", "eccentricity_x", "eccentricity_y"})
+OF_SHAFTS = frozenset({"angle", "load_x", "load_y", "eccentricity_x", "eccentricity_y"})
 """Columns that only a shaft has."""
 
 MOMENTS = frozenset({"moment_x", "moment_y"})
@@ -30,7 +30,7 @@ def check_motion(geometry: AnyShape, over_time: OverTime | None, body: Body | No
     if isinstance(geometry, Journal):
         geometry = OpenBore.of(geometry)
     lobes, columns = isinstance(geometry, Lobes), over_time.table.columns.keys() if over_time is not None else set()
-    wrong = sorted({"film"} & columns if lobes else OF_LOBES & columns)
+    wrong = sorted({"film"} & columns if lobes else OF_SHAFTS & columns)
     if wrong:
         remedy = "eccentricity_x and eccentricity_y" if lobes else "load or film"
         wall = "a shaft" if lobes else f"shape = {geometry.shape!r}"

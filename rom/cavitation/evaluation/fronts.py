@@ -1,4 +1,4 @@
-"""How far the fronts of cavities are known on a grid, from its nodes alone."""
+"""Uncertainties of the fronts of cavities on a grid, from its nodes alone."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ FRACTION_OF_CELL = 0.1
 def fraction_at_fronts(solution: Solution) -> float:
     """The area of the nodes in cavities beside a film, over the area of the film.
 
-    Two grids may place a front between the same nodes; each of them knows the area of a cavity to these nodes only.
+    On two grids a front may lie between the same nodes; on each of them the cavity is known to these nodes only.
     """
     film = solution.kind == FILM
     beside = np.zeros_like(film)

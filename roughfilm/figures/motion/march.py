@@ -1,4 +1,4 @@
-"""Figures of marches: the orbit, film, pressure, load, friction and flows over time, and a film over its plane."""
+"""Figures of marches: the orbit, film, pressure, load, power and flows over time, and a film over its plane."""
 
 from itertools import cycle, product
 
@@ -71,7 +71,7 @@ def room(scene: Bearing) -> tuple[Array, Array]:
 
 
 def over_time(march: March) -> Figure:
-    """Least film, peak pressure, load, friction, power, flows and cavities over time."""
+    """Least film, pressures, load, power loss, flows and cavities over time, and of a pad its slopes and moments."""
     pivoted = "pivot_film" in march.series.units
     figure, panels = new_figure((11.4, 10.8 if pivoted else 8.2), 4 if pivoted else 3, 2, sharex=True)
     scale, unit = (1e3, "ms") if march.time[-1] < 1 else (1.0, "s")

@@ -8,7 +8,6 @@ from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.geometry.ring import Ring
@@ -161,7 +160,7 @@ def along_of(scene: Bearing) -> Along:
 def _pivots(scene: Bearing, factor: float) -> tuple[tuple[float, float], ...]:
     """The place of the pivot of a pad on its axis and across, mm; none of another bearing."""
     geometry = scene.geometry
-    if not isinstance(geometry, Tilting) or isinstance(geometry, Shaft):
+    if not isinstance(geometry, Tilting):
         return ()
     low, high = geometry.sides
     return ((factor * geometry.pivot[0] * geometry.span, ACROSS * (low + geometry.pivot[1] * (high - low))),)

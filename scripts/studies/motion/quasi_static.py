@@ -1,7 +1,7 @@
 """Compare what is stated of loads over time with marches: python -m scripts.studies.motion.quasi_static --out OUT.
 
-`advise` and `effects` state by how much squeeze changes the least film of a bearing whose load changes, to first order
-in the rate of change, and above some change by a coarse march. Random journals are marched on a finer grid with
+`advise` and `effects` state by how much squeeze changes the least film of a bearing whose load changes, by a coarse
+march, and to first order in the rate of change where that stops. Random journals are marched on a finer grid with
 shorter steps.
 """
 

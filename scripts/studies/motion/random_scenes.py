@@ -3,7 +3,6 @@
 import math
 import zlib
 from collections.abc import Callable, Mapping
-from typing import Any
 
 import numpy as np
 from numpy.random import Generator
@@ -11,8 +10,7 @@ from numpy.random import Generator
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.scene import read_scene
-
-Entries = dict[str, Any]
+from scripts.studies.coverage.random_entries import Entries, between
 
 RADIUS, VISCOSITY = 0.05, 0.02
 """Radius of the shafts, m, and viscosity of the lubricant, Pa s. Films depend on ratios alone."""
@@ -98,11 +96,6 @@ def _over_time(entries: Entries, times: list[float], columns: Mapping[str, list[
     table: Entries = {"time": [with_unit(time, "s") for time in times]}
     table |= {name: [with_unit(value, "N") for value in values] for name, values in columns.items()}
     entries["motion"]["over_time"] = table
-
-
-def between(rng: Generator, low: float, high: float) -> float:
-    """Return a number whose logarithm is uniform."""
-    return float(math.exp(rng.uniform(math.log(low), math.log(high))))
 
 
 def _generator(kind: str, seed: int) -> Generator:
@@ -240,7 +233,7 @@ def sector(rng: Generator) -> Entries:
 
 
 def _pivoted(rng: Generator, geometry: Entries, length: float, width: float) -> Entries:
-    """Return a pad about a pivot under a load whose film is 10⁻⁴ to 10⁻³ of the length of the pad."""
+    """Return a pad about a pivot under a load whose film is about 3·10⁻⁴ to 2·10⁻³ of its length."""
     crown = rng.uniform() < 0.3
     line = bool(rng.uniform() < 0.3)
     along, across = float(rng.uniform(0.52, 0.66)), 0.5 if line else float(rng.uniform(0.46, 0.54))

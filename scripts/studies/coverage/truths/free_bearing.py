@@ -1,4 +1,4 @@
-"""The truth of a bearing whose wall finds its place under a load: every model on finer grids, extrapolated."""
+"""The truth of a bearing whose wall is in equilibrium with a load: every model on finer grids, extrapolated."""
 
 from roughfilm.rom.bearing.scene import Bearing
 from scripts.studies.coverage.finer import finer_truth

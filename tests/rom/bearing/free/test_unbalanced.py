@@ -60,7 +60,7 @@ def test_a_pivot_at_the_outlet_is_refused():
 @pytest.mark.parametrize(
     ("changed", "load", "remedy"),
     [
-        ({"slopes": ["2 mrad", "0 rad"]}, {}, "smaller geometry.slopes, below 0 along the sliding"),
+        ({"slopes": ["2 mrad", "0 rad"]}, {}, "smaller geometry.slopes by which the film narrows"),
         ({}, {"moment_y": "-50 N*m"}, "change load.moment_x or load.moment_y"),
     ],
 )

@@ -94,6 +94,18 @@ def test_without_sliding_an_approach_gives_the_film_its_pressure():
     assert line.startswith("approach: squeeze alone gives the film its pressure")
 
 
+def test_plates_that_sink_without_a_wedge_are_judged_where_they_approach():
+    """Parallel walls that slide carry nothing but by squeeze, which presses them apart only while they approach."""
+    time, film = waves(1.0, 10.0, 14.0, "um")
+    plates = {"shape": "parallel", "length": "20 mm", "width": "20 mm"}
+    path = scene(plates, {"over_time": {"time": time, "film": film}})
+    line, _judged = KIND.in_time(path, 0.05).lines
+    assert line.startswith("path over time: squeeze alone gives the film its load")
+    assert KIND.steady(path).motion.approach > 0
+    (line,) = KIND.in_time(scene({**plates, "film": "10 um"}, {"approach": "1 mm/s"}), 0.05).lines
+    assert line.startswith("approach: without it the film carries no load")
+
+
 def test_an_approach_may_be_left_out_below_a_rate():
     shape = {**PAD, "film": "10 um"}
     in_time = KIND.in_time(scene(shape, {"approach": "1 mm/s"}), 0.05)

@@ -77,3 +77,19 @@ def test_without_any_other_march_there_is_no_uncertainty_and_a_warning_says_why(
     march, _ = marched(monkeypatch, lambda numerics: numerics.cells != CELLS)
     assert all(one.uncertainty is None for one in march.quantities.values())
     assert "no uncertainty: all marches on coarser grids stopped (the film becomes too thin)" in march.warnings
+
+
+def test_the_error_of_steps_counts_where_the_largest_step_limits_them(monkeypatch):
+    """With a large error of a step all steps are the largest one; those of the comparison are twice as long."""
+    steps, own = [], solve.run
+
+    def run(duty, numerics, **options):
+        series = own(duty, numerics, **options)
+        steps.append(series["step"][-3:].max())
+        return series
+
+    monkeypatch.setattr(solve, "run", run)
+    march_bearing(scene(), end=2e-3, error=0.2, cells=CELLS)
+    fine, coarse, longer = steps
+    assert coarse == pytest.approx(fine)
+    assert longer == pytest.approx(2 * fine)
