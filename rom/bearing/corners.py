@@ -23,6 +23,11 @@ class Jump:
     difference: float
 
 
+def differs(pressure: float, other: float) -> bool:
+    """Whether two pressures, Pa, differ by more than rounding."""
+    return abs(pressure - other) > PRESSURE_TOLERANCE * max(abs(pressure), abs(other))
+
+
 def jumps(solution: Solution) -> tuple[Jump, ...]:
     """The jumps of the pressure at the corners of a film with open sides.
 
@@ -41,7 +46,7 @@ def jumps(solution: Solution) -> tuple[Jump, ...]:
     for side, pressure, row in (("low", ends.sides[0], 1), ("high", ends.sides[1], last - 1)):
         flooded = ends.inlet is not None or solution.kind[0, row] == FLOODED
         for end, other in ((("inlet", ends.inlet or 0.0),) if flooded else ()) + (("outlet", ends.outlet),):
-            if abs(pressure - other) > PRESSURE_TOLERANCE * max(abs(pressure), abs(other)):
+            if differs(pressure, other):
                 found.append(Jump(end=end, side=side, difference=other - pressure))
     return tuple(found)
 

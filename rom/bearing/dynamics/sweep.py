@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, grid_point, rotation_of
 from roughfilm.rom.bearing.dynamics.wall_errors import wall_errors
 from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
@@ -203,6 +204,7 @@ def dynamic_point(
     net_force = film.solved.force(instant.state.pressure) + film.solved.contact_at(instant.place).force + film.load
     load = math.hypot(*film.load[shaft])
     numbers, uncertainty = finished(points, rotation, of_walls, math.hypot(*net_force[shaft]) / load)
+    uncertainty |= dict.fromkeys(infinite_flows(film.solution(instant)) & uncertainty.keys(), math.inf)
     return DynamicPoint(
         pressure=pressure,
         load=load,

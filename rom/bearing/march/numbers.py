@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.corners import differs
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.course import Duty
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
@@ -139,6 +140,22 @@ class Observer:
         """The nodes of each supply, by the name of its pressure in the film."""
         nodes = dict(zip(self._inflows, self.film.solved.covered, strict=True))
         return {f"{name}_pressure": nodes[name] for name in self._inflows if name.startswith("supply")}
+
+    @cached_property
+    def infinite_flows(self) -> frozenset[str]:
+        """The names of flows that are infinite where the film is full at corners between edges of other pressures."""
+        film, names = self.film.solved, set()
+        ends = film.problem.ends
+        if ends.sides is None:
+            return frozenset()
+        given = {"inlet_flow": ends.inlet, "outlet_flow": ends.outlet}
+        given |= {f"{name}_flow": one.pressure for name, one in zip(self._inflows, film.inflows, strict=True)}
+        for place, nodes in self._places.items():
+            pressure = given.get(place)
+            for side, beside, other in (("low", -2 if film.halved else 1, ends.sides[0]), ("high", -2, ends.sides[1])):
+                if pressure is not None and nodes[:, beside].any() and differs(pressure, other):
+                    names |= {place, f"side_flow_{side}"}
+        return frozenset(names)
 
     def row(self, moving: Moving) -> Array:
         """The numbers of a step, in the order of ``units``."""

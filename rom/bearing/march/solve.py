@@ -15,6 +15,7 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.geometry.open_bore import OpenBore
 from roughfilm.rom.bearing.march.course import Duty, film_at, refuse_unsupported
 from roughfilm.rom.bearing.march.journals import with_coordinates
+from roughfilm.rom.bearing.march.numbers import Observer
 from roughfilm.rom.bearing.march.rough_walls import walls_of
 from roughfilm.rom.bearing.march.series import Numerics, Series, run
 from roughfilm.rom.bearing.march.store import finish, keeper, kept
@@ -232,6 +233,16 @@ def march_bearing(
                 warnings.append(
                     f"{', '.join(sorted(unknown))}: unknown uncertainty, as the roughness has too few points"
                 )
+    infinite = Observer(duty=duty, film=film_at(duty, cells, walls_of(duty.scene))).infinite_flows
+    if infinite:
+        quantities |= {
+            f"{name}_mean": replace(quantities[f"{name}_mean"], uncertainty=None) for name in sorted(infinite)
+        }
+        warnings.append(
+            f"{', '.join(sorted(infinite))}: infinite where the film is full at a corner between two edges of "
+            "different pressures, and growing with the logarithm of the cells; give these edges one pressure, or "
+            "[[supply]] with grooves that end before the sides"
+        )
     bore, titles = duty.scene.geometry, dict(summary.titles)
     if isinstance(bore, OpenBore):
         angle = math.remainder(bore.first + math.pi, 2 * math.pi)

@@ -239,3 +239,21 @@ def test_tables_have_a_row_for_each_speed(curve, tmp_path):
     assert element["frequency"] == [point.rotation for point in curve.points]
     for column, entry in (("kxx", "stiffness_xx"), ("cyx", "damping_yx")):
         assert element[column] == [point.numbers[entry] for point in curve.points]
+
+
+def test_the_side_leakage_beside_grooves_of_another_pressure_is_unknown():
+    fed = read_scene(
+        {
+            "name": "fed",
+            "kind": "bearing",
+            "geometry": GROOVED,
+            "lubricant": {"viscosity": "20 mPa*s"},
+            "motion": {"speed": "3000 rpm"},
+            "boundary": {"inlet": {"pressure": "1 bar"}},
+            "load": {"pressure": "2 MPa"},
+        }
+    )
+    (found,) = swept(fed)
+    (point,) = found.points
+    assert math.isinf(point.uncertainty["side_leakage"])
+    assert math.isfinite(point.uncertainty["stiffness_yy"])

@@ -102,6 +102,16 @@ def test_pads_without_load_rest_as_in_equilibrium():
     assert np.abs(march["flow_imbalance"]).max() < 1e-9
 
 
+def test_flows_at_corners_between_edges_of_other_pressures_have_no_uncertainty():
+    fed = bearing(boundary={"inlet": {"pressure": "1 bar"}}, load={"force": "600 N"})
+    march = march_bearing(fed, end=2e-3, cells=CELLS, error=1e-2)
+    flows = {f"{name}_flow_mean" for name in ("gap_1", "gap_2")} | {
+        f"side_flow_{side}_mean" for side in ("low", "high")
+    }
+    assert {name for name, one in march.quantities.items() if one.uncertainty is None} == flows
+    assert any(line.startswith("gap_1_flow, gap_2_flow, side_flow_high, side_flow_low") for line in march.warnings)
+
+
 def test_less_than_a_period_or_a_few_turns_state_no_end_of_the_motion():
     """A turn takes 10 ms; in 1 ms a shaft hardly leaves its start."""
     for body in ({"unbalance": "100 g*mm"}, {"mass": "1 kg", "start": {"eccentricity": [0.1, -0.1]}}):
