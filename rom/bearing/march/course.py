@@ -21,7 +21,7 @@ from roughfilm.rom.bearing.moving.body import Body, Start
 from roughfilm.rom.bearing.moving.over_time import Curve
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
 from roughfilm.rom.cavitation.motion.coupled import Drive, settled
-from roughfilm.rom.cavitation.motion.march import Course, Moving, begun
+from roughfilm.rom.cavitation.motion.march import Course, Moving, begun, held
 
 TURNS = 20
 """Turns of the shaft, or passages of the sliding wall, after which a march without a table ends."""
@@ -34,6 +34,9 @@ CLOSED = 0.9
 
 FIRST_NARROWING = 0.5
 """Slope times length of a pad from which its equilibrium is sought, over the given film at its pivot."""
+
+FIRST_CHANGE = 1e-4
+"""Largest relative change of the film before the first time, by which a wall that moves squeezes it."""
 
 STEPS_PER_TURN = 20
 """Least number of steps in a turn of the shaft."""
@@ -219,6 +222,18 @@ class Duty:
             velocity[0] = -self.approach
         return velocity
 
+    def first_velocity(self, film: FreeFilm) -> Array:
+        """The velocity of the given coordinates at the first time, m/s; 0 of those that move freely."""
+        velocity, curves = np.zeros(film.wall.place.size), self.curves
+        if "eccentricity_x" in curves:
+            rates = [curves[name].cubic(self.begin, 1) for name in ("eccentricity_x", "eccentricity_y")]
+            velocity[:2] = film.wall.unit[0] * np.array(rates)
+        elif "film" in curves:
+            velocity[0] = curves["film"].cubic(self.begin, 1)
+        elif self.approach:
+            velocity = self.closing(velocity.size)
+        return velocity
+
     def free(self, film: FreeFilm) -> NDArray[np.bool_]:
         """Whether each coordinate moves as its forces make it move."""
         geometry = self.scene.geometry
@@ -377,8 +392,9 @@ def _velocity_scale(duty: Duty, film: FreeFilm) -> Array:
 def started(duty: Duty, film: FreeFilm, *, tolerance: float) -> Moving:
     """The film at the first time, from which a march begins.
 
-    It is the steady film at the given place, or in equilibrium with the first load; where nothing changes in time, a
-    shaft starts in the middle of the bearing.
+    It is the film at the given place, or in equilibrium with the first load; where nothing changes in time, a shaft
+    starts in the middle of the bearing. A wall that has a velocity squeezes a film that has been steady before, by a
+    change of ``FIRST_CHANGE`` of its thickness.
 
     Raises
     ------
@@ -386,13 +402,11 @@ def started(duty: Duty, film: FreeFilm, *, tolerance: float) -> Moving:
         If there is no equilibrium with the first load.
     """
     start, begin, count = duty.body.start or Start(), duty.begin, film.wall.place.size
-    place, velocity = duty.place(begin, film), np.zeros(count)
+    place, velocity = duty.place(begin, film), duty.first_velocity(film)
     if start.eccentricity is not None:
         place[:2] = np.array(start.eccentricity) * film.wall.unit[0]
     if start.velocity is not None:
         velocity[: len(start.velocity)] = start.velocity
-    elif duty.approach:
-        velocity = duty.closing(count)
     free, load = duty.free(film), duty.load(begin)[:count]
     given = start.eccentricity is not None or start.film is not None or (duty.given_path and duty.pivoted is None)
     speed = abs(duty.speed(begin))
@@ -411,12 +425,17 @@ def started(duty: Duty, film: FreeFilm, *, tolerance: float) -> Moving:
             f"body.start.{key}: the walls are {-room:.3g} m closer than flow factors and contact are known for at the "
             "first time; start further apart"
         )
-    held = free & film.wall.turns
+    turning = free & film.wall.turns
     drive = Drive(
         speed=speed,
         force=np.zeros(count),
-        stiffness=np.diag(np.where(held, 1e-9 * film.wall.unit[0], 0.0)),
+        stiffness=np.diag(np.where(turning, 1e-9 * film.wall.unit[0], 0.0)),
         free=np.zeros(count, dtype=bool),
     )
-    instant = settled(film.solved, film.first(place), drive, tolerance=tolerance)
+    rate = max(film.solved.closing(place, sign * velocity) for sign in (-1.0, 1.0)) / FIRST_CHANGE
+    before = place - velocity / rate if rate > 0 else place
+    instant = settled(film.solved, film.first(before), drive, tolerance=tolerance)
+    if rate > 0:
+        squeezed = replace(drive, storage=(rate, rate * held(film.solved, instant)))
+        instant = settled(film.solved, replace(instant, place=place), squeezed, tolerance=tolerance)
     return begun(film.solved, replace(instant, place=place), time=begin, velocity=velocity)

@@ -155,6 +155,21 @@ def test_a_long_plate_that_closes_without_sliding_follows_the_closed_form():
     assert march["film"] == pytest.approx(exact, rel=3e-3)
 
 
+def test_the_first_film_is_squeezed_by_a_wall_that_moves_then():
+    """An infinitely wide plate: p = 6ηV x(L - x)/h³, W/B = ηV(L/h)³."""
+    scene = read_scene(
+        {
+            "name": "plate",
+            "kind": "bearing",
+            "geometry": {"shape": "parallel", "length": "20 mm", "film": "50 um"},
+            "lubricant": LUBRICANT,
+            "motion": {"speed": "0 m/s", "approach": "1 mm/s"},
+        }
+    )
+    march = march_bearing(scene, cells=(64, 8), end=1e-4, steps=2, uncertain=False)
+    assert march["film_force"][0] == pytest.approx(15e-3 * 1e-3 * (20e-3 / 50e-6) ** 3, rel=2e-3)
+
+
 def test_a_given_path_squeezes_with_its_velocity():
     """The load of parallel plates is η L³ V/h³ per width while the film closes."""
     length, viscosity = 0.02, 0.1
