@@ -101,7 +101,7 @@ def execute(directory: Path, command: Sequence[str], log_name: str, watch: Watch
                     _refuse_full(directory)
                     checked = time.monotonic()
                 if watch():
-                    process.terminate()
+                    os.kill(process.pid, signal.SIGTERM)  # Popen.terminate may collect the end that wait4 waits for
                 time.sleep(POLL_INTERVAL_S)
         except BaseException:
             if process is not None:

@@ -43,6 +43,21 @@ def test_a_program_can_be_stopped_by_who_watches_it(tmp_path):
     assert ended.code == -signal.SIGTERM
 
 
+def test_a_program_that_ends_just_before_it_is_stopped_has_its_own_code(tmp_path, monkeypatch):
+    start, started = subprocess.Popen, []
+
+    def watch():
+        os.waitid(os.P_PID, started[0].pid, os.WEXITED | os.WNOWAIT)
+        return True
+
+    def recorded(*arguments, **options):
+        started.append(start(*arguments, **options))
+        return started[-1]
+
+    monkeypatch.setattr(subprocess, "Popen", recorded)
+    assert execute(tmp_path, ["sh", "-c", "sleep 0.2; exit 7"], "log", watch).code == 7
+
+
 def test_a_signal_that_comes_while_a_program_is_started_ends_it_too(tmp_path, monkeypatch):
     start, started = subprocess.Popen, []
 
