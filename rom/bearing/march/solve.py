@@ -239,9 +239,9 @@ def march_bearing(
             f"{name}_mean": replace(quantities[f"{name}_mean"], uncertainty=None) for name in sorted(infinite)
         }
         warnings.append(
-            f"{', '.join(sorted(infinite))}: infinite where the film is full at a corner between two edges of "
-            "different pressures, and growing with the logarithm of the cells; give these edges one pressure, or "
-            "[[supply]] with grooves that end before the sides"
+            f"{', '.join(sorted(infinite))}: these flows are infinite if the film is full at a corner between two "
+            "edges of different pressures; their numbers grow with the logarithm of the cells; give these edges one "
+            "pressure, or [[supply]] with grooves that end before the sides"
         )
     bore, titles = duty.scene.geometry, dict(summary.titles)
     if isinstance(bore, OpenBore):
