@@ -59,6 +59,10 @@ _ENGINEERING: Mapping[str, tuple[float, float]] = {
     "W": (1e-12, 1e9),
     "s": (1e-9, 1e10),
     "K": (1e-3, 1e5),
+    "K^-1": (1e-9, 1e3),
+    "W/(m*K)": (1e-6, 1e6),
+    "W/(m^2*K)": (1e-6, 1e9),
+    "J/(kg*K)": (1e-3, 1e6),
     "1": (1e-6, 1e6),
 }
 """Smallest and largest number in engineering, by SI unit; "1" for dimensionless numbers."""

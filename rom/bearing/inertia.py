@@ -60,7 +60,8 @@ def inertia(scene: Bearing, solution: Solution) -> Inertia:
     if shape.polar or shape.joined[0]:
         raise InputError("scene.geometry: inertia cannot be estimated on rings, where centrifugal forces act")
     h, problem, grid = solution.faces.thickness, solution.problem, solution.grid
-    viscosity = problem.viscosity / problem.piezoviscosity.fluidity(solution.state.pressure, problem.viscosity)[0]
+    own = problem.viscosity if problem.at_nodes is None else problem.at_nodes.flow
+    viscosity = own / problem.fluidity(solution.state.pressure)[0]
     speed = problem.speed
     mobility = problem.mobility(solution.state.pressure)[0]
     east, north = solution.network.conductance(mobility)

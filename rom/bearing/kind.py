@@ -22,6 +22,7 @@ from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES, RoughSurface
 from roughfilm.rom.bearing.scene import Bearing, BearingMotion
 from roughfilm.rom.bearing.supply.tables import SUPPLIES
+from roughfilm.rom.bearing.thermal.tables import WALLS
 from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import InTime, Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
@@ -52,6 +53,8 @@ CHOSEN: Mapping[tuple[str | None, ...], Mapping[str, type[Part]]] = {
     ("lubricant", "piezoviscosity"): LAWS,
     ("roughness",): ROUGHNESSES,
     ("supply", None): SUPPLIES,
+    ("heat", "fixed_wall"): WALLS,
+    ("heat", "sliding_wall"): WALLS,
 }
 """Tables of a scene whose classes depend on one of their keys; None is the number of a table in a list."""
 

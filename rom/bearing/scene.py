@@ -22,6 +22,7 @@ from roughfilm.rom.bearing.moving.over_time import OverTime
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
 from roughfilm.rom.bearing.supply.patches import Patch, patches, supplied
 from roughfilm.rom.bearing.supply.tables import MAX_SUPPLIES, AnySupply
+from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
@@ -194,6 +195,7 @@ class Bearing(Scene):
     Attributes
     ----------
     supply : grooves, holes and pockets inside of the film in which lubricant is supplied.
+    heat : walls and surroundings of the film, for models with temperature.
     """
 
     kind: Literal["bearing"]
@@ -204,6 +206,7 @@ class Bearing(Scene):
     roughness: AnyRoughness | None = None
     asperities: AsperityContact | None = None
     load: BearingLoad | None = None
+    heat: Heat | None = None
     body: Body | None = None
     supply: Annotated[tuple[AnySupply, ...], Field(max_length=MAX_SUPPLIES)] = ()
 

@@ -11,6 +11,8 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import unreordered
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.cavitation.averaged import Averaged, averaged
+from roughfilm.rom.cavitation.balance import conduct
+from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.network import Network
 from roughfilm.rom.cavitation.oblique import Oblique
@@ -197,6 +199,7 @@ def network(
     compressibility: float,
     storage: tuple[float | Array, float | Array] | None = None,
     ruptures: bool = True,
+    viscosities: Viscosities | None = None,
 ) -> Network:
     """The network of a film.
 
@@ -208,6 +211,7 @@ def network(
     storage : in transient flow, the rate a, 1/s, and s, m/s, of ∂(θh)/∂t = a θh - s; each a number or of shape
         (nx, ny).
     ruptures : whether the film cavitates.
+    viscosities : viscosities at the nodes, at the cavitation pressure, where they are not ``viscosity``.
 
     Raises
     ------
@@ -222,6 +226,9 @@ def network(
     lengths = grid.spacing_x, grid.spacing_y, grid.volume_x, grid.volume_y, grid.radius
     flows = couette, upstream, east, north, part_couette, part_east
     weigh(*integrals, *lengths, float(speed), float(viscosity), float(compressibility), *flows)
+    cross = None if faces.averaged is None else faces.averaged.cross
+    if viscosities is not None:
+        cross = _varied(viscosity, viscosities, compressibility, flows, cross)
     fixed, pressure = np.zeros((nx, ny), dtype=bool), np.zeros((nx, ny))
     supply = None
     if grid.spacing_x[-1] == 0:
@@ -241,7 +248,7 @@ def network(
         x, y, given = ends.anchor
         node = int(np.abs(grid.x - x).argmin()), int(np.abs(grid.y - y).argmin())
         fixed[node], pressure[node] = True, given
-    lay = _oblique(grid, faces, north, fixed, speed, viscosity, compressibility, supplied=supply is not None)
+    lay = _oblique(grid, faces, cross, north, fixed, speed, viscosity, compressibility, supplied=supply is not None)
     spills = (False, False)
     if lay is not None and ruptures and ends.sides is not None:
         spills = (ends.sides[0] <= 0, ends.sides[1] <= 0)
@@ -292,9 +299,36 @@ def weigh(mean, over_east, over_north, parts, spacing_x, spacing_y, volume_x, vo
                 north[i, j] = over_north[i, j] * volume_x[i] * towards / (12 * viscosity * spacing_y[j])
 
 
+def _varied(
+    viscosity: float,
+    viscosities: Viscosities,
+    compressibility: float,
+    flows: tuple[Array, ...],
+    cross: Array | None,
+) -> Array | None:
+    """Multiply the flows of the faces for the viscosities at the nodes; returns A₁₂ of the cells, multiplied too.
+
+    A film that ruptures inside of a face has the viscosities of its upstream node. Second-order accurate.
+    """
+    couette, upstream, east, north, part_couette, part_east = flows
+    fluidity, carried = viscosity / viscosities.flow, viscosities.carried
+    conduct(east.copy(), north.copy(), fluidity, True, True, east, north)  # faces without a film stay at 0
+    couette *= (carried + np.roll(carried, -1, axis=0)) / 2
+    part_couette *= carried
+    part_east *= fluidity
+    advected = couette * compressibility
+    if compressibility:
+        upstream[advected != 0] = np.maximum(0.5, 1 - east[advected != 0] / advected[advected != 0])
+    if cross is None:
+        return None
+    pairs = (fluidity + np.roll(fluidity, -1, axis=0)) / 2
+    return np.asarray(cross * (pairs + np.roll(pairs, -1, axis=1)) / 2)
+
+
 def _oblique(
     grid: Grid,
     faces: Faces,
+    cross: Array | None,
     north: Array,
     fixed: NDArray[np.bool_],
     speed: float,
@@ -305,7 +339,7 @@ def _oblique(
 ) -> Oblique | None:
     """The flows that an oblique lay adds in the plane, None without one; there is no drift along a starved inlet."""
     rough = faces.averaged
-    if rough is None or grid.shape[1] == 1 or not (rough.cross.any() or rough.drag_across.any()):
+    if rough is None or cross is None or grid.shape[1] == 1 or not (cross.any() or rough.drag_across.any()):
         return None
     if grid.spacing_y[-1]:
         raise InputError(
@@ -319,7 +353,7 @@ def _oblique(
         upstream = np.maximum(0.5, 1 - north / (np.abs(drift) * compressibility))
     upstream[drift * compressibility == 0] = 0.5
     return Oblique(
-        cross=rough.cross / (12 * viscosity),
+        cross=cross / (12 * viscosity),
         drift=drift,
         upstream=upstream,
         threshold=rough.threshold_across,

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.discretise import Ends
+from roughfilm.rom.cavitation.fluid import Viscosities, ViscosityField
+from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.shape import Shape, Thickness
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
@@ -59,6 +61,8 @@ class Problem:
     compressibility, piezoviscosity : density and viscosity over pressure.
     opening : opening(x, y), the velocity ∂h/∂t at which the walls part, m/s, vectorised; None if they do not.
     inflows : parts of the film in which lubricant is supplied.
+    viscosities : viscosities(x, y), those at the cavitation pressure; None if they are ``viscosity`` everywhere.
+    at_nodes : these viscosities at the nodes of a grid, shape (nx, ny), of a problem on that grid.
     """
 
     shape: Shape
@@ -69,15 +73,27 @@ class Problem:
     piezoviscosity: Piezoviscosity = field(default_factory=ConstantViscosity)
     opening: Thickness | None = None
     inflows: tuple[Inflow, ...] = ()
+    viscosities: ViscosityField | None = None
+    at_nodes: Viscosities | None = None
+
+    def on(self, grid: Grid) -> "Problem":
+        """The problem on a grid, with the viscosities at its nodes."""
+        if self.viscosities is None:
+            return self
+        return replace(self, at_nodes=self.viscosities(*np.meshgrid(grid.x, grid.y, indexing="ij")))
 
     def compression(self, pressure: Array) -> tuple[Array, Array]:
         """ϑ = θ - 1 and dθ/dp, 1/Pa."""
         return self.compressibility.compression(pressure)
 
+    def fluidity(self, pressure: Array) -> tuple[Array, Array]:
+        """η0/η and its derivative, 1/Pa, with the viscosity η0 of the place at the cavitation pressure."""
+        return self.piezoviscosity.fluidity(pressure, self.viscosity if self.at_nodes is None else self.at_nodes.flow)
+
     def mobility(self, pressure: Array) -> tuple[Array, Array]:
         """φ = θ η0/η and dφ/dp, 1/Pa."""
         excess, excess_slope = self.compressibility.compression(pressure)
-        fluidity, fluidity_slope = self.piezoviscosity.fluidity(pressure, self.viscosity)
+        fluidity, fluidity_slope = self.fluidity(pressure)
         return (1 + excess) * fluidity, excess_slope * fluidity + (1 + excess) * fluidity_slope
 
     @property

@@ -137,7 +137,7 @@ def solve(
     work = [float(nx * (1 if wide else ny)) for nx, ny in sizes]
     finest = grid(problem.shape, cells)
     found: Solution | None = None
-    limit = pressure_limit(problem)
+    limit = math.inf if problem.viscosities is not None else pressure_limit(problem)
     exact = isinstance(problem.compressibility, Incompressible)
     unchecked = math.isfinite(limit)
     for number, size in enumerate(sizes):
@@ -240,7 +240,7 @@ def on_grid(
     ruptures: bool = True,
 ) -> Solution:
     """The solution on one grid, after relaxation sweeps from ``start`` or from a full film at cavitation pressure."""
-    sampled = faces(problem.shape, nodes)
+    problem, sampled = problem.on(nodes), faces(problem.shape, nodes)
     storage = None
     if problem.opening is not None:
         storage = problem.opening(*np.meshgrid(nodes.x, nodes.y, indexing="ij")) / sampled.thickness, 0.0
@@ -253,6 +253,7 @@ def on_grid(
         compressibility=problem.initial_compressibility,
         storage=storage,
         ruptures=ruptures,
+        viscosities=problem.at_nodes,
     )
     if problem.shape.wide:  # each step is slow to import
         from roughfilm.rom.cavitation.line import line_step as step
@@ -321,8 +322,18 @@ def mirrored(problem: Problem) -> Problem:
     )
     opening = problem.opening
     back = None if opening is None else lambda x, y: opening(low + high - x, y)
+    varied = problem.viscosities
+    viscosities = None if varied is None else lambda x, y: varied(low + high - x, y)
     inflows = tuple(mirrored_inflow(inflow, low + high) for inflow in problem.inflows)
-    return replace(problem, shape=turned, speed=-problem.speed, opening=back, inflows=inflows)
+    return replace(
+        problem,
+        shape=turned,
+        speed=-problem.speed,
+        opening=back,
+        inflows=inflows,
+        viscosities=viscosities,
+        at_nodes=None,
+    )
 
 
 def mirrored_inflow(inflow: Inflow, ends: float) -> Inflow:

@@ -42,6 +42,14 @@ class Effect(StrEnum):
     """Roughness averaged over its waves, as if these were infinitely short."""
     FINITE_WAVES = "finite waves"
     """Roughness with every wave resolved."""
+    SHEAR_THINNING = "shear thinning"
+    """Viscosity that falls with the shear rate."""
+    HEATING = "heating"
+    """Viscosity at the temperature to which friction heats the film, as one number."""
+    TEMPERATURE_FIELD = "temperature field"
+    """Temperature that varies over the film, as the mean across it."""
+    TEMPERATURE_ACROSS = "temperature across"
+    """Temperature that varies across the film, from wall to wall."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -21,8 +21,8 @@ class ConstantViscosity(LubricantLaw):
 
     law: Literal["constant"] = "constant"
 
-    def fluidity(self, pressure: Array, viscosity: float) -> tuple[Array, Array]:  # noqa: ARG002
-        """The fluidity η0/η and its derivative, 1/Pa; shape of ``pressure``."""
+    def fluidity(self, pressure: Array, viscosity: float | Array) -> tuple[Array, Array]:  # noqa: ARG002
+        """The fluidity η0/η and its derivative, 1/Pa; shape of ``pressure``, of which η0, Pa s, may be too."""
         return np.ones_like(pressure), np.zeros_like(pressure)
 
 
@@ -42,8 +42,8 @@ class Barus(LubricantLaw):
         """The pressure 0.1 GPa, in Pa."""
         return 1e8
 
-    def fluidity(self, pressure: Array, viscosity: float) -> tuple[Array, Array]:  # noqa: ARG002
-        """The fluidity η0/η and its derivative, 1/Pa; shape of ``pressure``."""
+    def fluidity(self, pressure: Array, viscosity: float | Array) -> tuple[Array, Array]:  # noqa: ARG002
+        """The fluidity η0/η and its derivative, 1/Pa; shape of ``pressure``, of which η0, Pa s, may be too."""
         fluidity = np.exp(-self.pressure_coefficient * pressure)
         return fluidity, -self.pressure_coefficient * fluidity
 
@@ -64,8 +64,8 @@ class Roelands(LubricantLaw):
         """The pressure 1 GPa, in Pa."""
         return 1e9
 
-    def fluidity(self, pressure: Array, viscosity: float) -> tuple[Array, Array]:
-        """The fluidity η0/η and its derivative, 1/Pa; shape of ``pressure``."""
+    def fluidity(self, pressure: Array, viscosity: float | Array) -> tuple[Array, Array]:
+        """The fluidity η0/η and its derivative, 1/Pa; shape of ``pressure``, of which η0, Pa s, may be too."""
         depth = np.log(viscosity) + LOG_VISCOSITY
         base = 1 + pressure / ROELANDS_PRESSURE
         fluidity = np.exp(-depth * (base**self.index - 1))

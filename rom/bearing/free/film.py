@@ -157,9 +157,10 @@ def free_film(
     half = _half(at_rest) if even else None
     count = max(cells[1] // 2, 1)
     upper = None if half is None else grid(half.shape, (cells[0], count))
+    nodes = grid(at_rest.shape, (cells[0], 2 * count)) if upper is None else doubled(upper)
     whole = MovingFilm(
-        problem=at_rest,
-        grid=grid(at_rest.shape, (cells[0], 2 * count)) if upper is None else doubled(upper),
+        problem=at_rest.on(nodes),
+        grid=nodes,
         normals=modes,
         inflows=(*gaps, *at_rest.inflows),
         ambient=-scene.lubricant.cavitation_pressure,
@@ -168,7 +169,7 @@ def free_film(
         closest=closest,
         turns=wall.turns,
     )
-    solved = whole if half is None or upper is None else replace(whole, problem=half, grid=upper, halved=True)
+    solved = whole if half is None or upper is None else replace(whole, problem=half.on(upper), grid=upper, halved=True)
     return FreeFilm(scene=scene, wall=wall, whole=whole, solved=solved, turned=turned)
 
 

@@ -64,7 +64,9 @@ def wall_stress(solution: Solution) -> Array:
 def _pull(solution: Solution, *, halved: bool = False) -> Array:
     """The force per width on the sliding wall between the nodes of each face towards i + 1, N/m, shape (nx, ny)."""
     grid, mean, problem = solution.grid, solution.faces.mean, solution.problem
-    fluidity = problem.piezoviscosity.fluidity(solution.state.pressure, problem.viscosity)[0]
+    fluidity, own = problem.fluidity(solution.state.pressure)[0], problem.at_nodes
+    viscosity = problem.viscosity if own is None else _between(own.shear)
+    carries = 1.0 if own is None else _between(own.carried)
     stretch = grid.spacing_x[:, None] * grid.radius
     speed = problem.speed * (grid.radius if problem.shape.polar else 1.0)
     fill = carried(solution)
@@ -74,17 +76,22 @@ def _pull(solution: Solution, *, halved: bool = False) -> Array:
     rough = solution.faces.averaged
     with np.errstate(divide="ignore", invalid="ignore"):
         gradient = fill / mean if rough is None else _shear_factor(solution, rough, fill)
-        shear = np.where(mean > 0, problem.viscosity * speed * gradient, 0.0)
-    thicker = (1 / fluidity + np.roll(1 / fluidity, -1, axis=0)) / 2
+        shear = np.where(mean > 0, viscosity * speed * gradient, 0.0)
+    thicker = _between(1 / fluidity)
     rise = np.roll(solution.state.pressure, -1, axis=0) - solution.state.pressure
-    pull = np.asarray(shear * thicker * stretch + mean / 2 * rise)
+    pull = np.asarray(shear * thicker * stretch + carries * (mean / 2 * rise))
     for inflow in problem.inflows:
         share = _share_inside(solution, inflow)
-        recess = RECESS_FRICTION * problem.viscosity * speed * thicker / (solution.faces.thickness + inflow.depth)
+        recess = RECESS_FRICTION * viscosity * speed * thicker / (solution.faces.thickness + inflow.depth)
         pull += share * (recess * stretch - pull)
     if problem.shape.idle:
         pull[problem.shape.is_idle(grid.x + grid.spacing_x / 2)] = 0.0
     return pull
+
+
+def _between(values: Array) -> Array:
+    """The mean of values at the nodes at the faces towards i + 1."""
+    return np.asarray((values + np.roll(values, -1, axis=0)) / 2)
 
 
 def _share_inside(solution: Solution, inflow: Inflow) -> Array:

@@ -14,6 +14,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.compiled import compiled
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.cavitation.discretise import Faces, faces_of, network, positions
+from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.grid import Grid, quarters
 from roughfilm.rom.cavitation.motion.contact import ContactForce, ContactLaw, contact_force
 from roughfilm.rom.cavitation.network import Network, Values
@@ -162,6 +163,7 @@ class MovingFilm:
             compressibility=self.problem.initial_compressibility,
             storage=storage,
             ruptures=self.ruptures,
+            viscosities=self.problem.at_nodes,
         )
         if self.contact is not None and storage is not None:
             net = replace(net, storage=self.grid.areas * self.gap(faces.thickness) * storage[0])
@@ -218,6 +220,7 @@ class MovingFilm:
                 mirrored(self.problem),
                 speed=abs(self.problem.speed),
                 inflows=tuple(map(covers, self.problem.inflows)),
+                at_nodes=self._turned_round(self.problem.at_nodes),
             ),
             grid=replace(
                 grid,
@@ -227,6 +230,16 @@ class MovingFilm:
             ),
             normals=tuple(map(normal, self.normals)),
             inflows=tuple(map(covers, self.inflows)),
+        )
+
+    def _turned_round(self, viscosities: Viscosities | None) -> Viscosities | None:
+        """The viscosities at the nodes of the film at those of the one mirrored in x."""
+        if viscosities is None:
+            return None
+        return Viscosities(
+            flow=self.turned_round(viscosities.flow),
+            shear=self.turned_round(viscosities.shear),
+            carried=self.turned_round(viscosities.carried),
         )
 
     def force(self, pressure: Array) -> Array:
