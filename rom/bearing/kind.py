@@ -26,7 +26,7 @@ from roughfilm.rom.bearing.thermal.tables import WALLS
 from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import InTime, Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
-from roughfilm.rom.lubricants.laws import LAWS
+from roughfilm.rom.lubricants.laws import LAWS, THERMAL_LAWS
 
 NEVER_COMPRESSED = 1e-12
 """Compression that stands for an incompressible lubricant in fits."""
@@ -51,6 +51,7 @@ CHOSEN: Mapping[tuple[str | None, ...], Mapping[str, type[Part]]] = {
     ("geometry",): SHAPES,
     ("lubricant", "compressibility"): LAWS,
     ("lubricant", "piezoviscosity"): LAWS,
+    ("lubricant", "thermoviscosity"): THERMAL_LAWS,
     ("roughness",): ROUGHNESSES,
     ("supply", None): SUPPLIES,
     ("heat", "fixed_wall"): WALLS,
@@ -326,6 +327,9 @@ KIND = Kind(
             ("roughness", "spacing"),
             ("roughness", "surface", "size"),
             ("roughness", "surface", "points"),
+            ("lubricant", "thermoviscosity", "points"),
+            ("lubricant", "thermoviscosity", "table"),
+            ("lubricant", "heat_capacity", "table"),
             *(("motion", "over_time", name) for name in COLUMNS_OVER_TIME),
         }
     ),
@@ -333,6 +337,21 @@ KIND = Kind(
     replaces={
         "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
         "lubricant.piezoviscosity.law": ("pressure_coefficient", "index"),
+        "lubricant.thermoviscosity.law": (
+            "temperature_coefficient",
+            "index",
+            "a",
+            "b",
+            "c",
+            "points",
+            "grade",
+            "viscosity_index",
+            "table",
+            "valid_from",
+            "valid_to",
+        ),
+        "lubricant.heat_capacity.constant": ("table",),
+        "lubricant.heat_capacity.table": ("constant",),
         "roughness.kind": (
             "amplitude",
             "wavelength",
