@@ -26,6 +26,7 @@ from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
+from roughfilm.rom.lubricants.shear_thinning import ShearThinning
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
 from roughfilm.rom.parts.fluid import Fluid
 from roughfilm.rom.parts.surroundings import GaugePressure
@@ -59,6 +60,7 @@ class BearingLubricant(Fluid):
     cavitation_pressure : cavitation pressure above ambient, Pa.
     compressibility : law of the density over pressure.
     piezoviscosity : law of the viscosity over pressure.
+    shear_thinning : law of the viscosity over the shear rate, for models with shear thinning.
     """
 
     viscosity: Viscosity
@@ -70,6 +72,7 @@ class BearingLubricant(Fluid):
     piezoviscosity: Annotated[Piezoviscosity, Field(discriminator="law"), BeforeValidator(_law)] = Field(
         default_factory=ConstantViscosity
     )
+    shear_thinning: Annotated[ShearThinning, Field(discriminator="law")] | None = None
 
 
 class BearingMotion(Part):
@@ -278,6 +281,8 @@ class Bearing(Scene):
                 f"lubricant.piezoviscosity: got roelands for {self.lubricant.viscosity!r} Pa s; that law needs more "
                 f"than {least:.2g} Pa s, take barus or constant"
             )
+        if self.lubricant.shear_thinning is not None:
+            self.lubricant.shear_thinning.check(self.lubricant.viscosity)
         if self.asperities is not None:
             self._can_touch(self.asperities)
         if self.motion.approach and isinstance(self.geometry, MovingWall):

@@ -107,6 +107,9 @@ class ThinningLaw(Part):
         shear = viscosity * np.asarray(rate) / self.critical_stress_of(viscosity)
         return np.asarray(viscosity * self.relative(shear, viscosity)[0])
 
+    def check(self, viscosity: float) -> None:
+        """Raise ValueError if the law does not thin a lubricant of the viscosity η₀, Pa s."""
+
     def curve(self, viscosity: float) -> ThinningCurve:
         """The relative fluidity over the relative stress, of the law with the viscosity η₀, Pa s."""
         return _curve(self, viscosity)
@@ -148,6 +151,15 @@ class CarreauYasuda(ThinningLaw):
             return self.critical_stress
         assert self.relaxation_time is not None
         return viscosity / self.relaxation_time
+
+    def check(self, viscosity: float) -> None:
+        """Raise ValueError if η∞ is not below the viscosity η₀, Pa s."""
+        least = self.infinite_shear_viscosity
+        if least is not None and least >= viscosity:
+            raise ValueError(
+                f"lubricant.shear_thinning.infinite_shear_viscosity: got {least:.6g} Pa s; it must be below "
+                f"lubricant.viscosity, {viscosity:.6g} Pa s"
+            )
 
     def relative(self, shear: Array, viscosity: float) -> tuple[Array, Array]:
         """The ratio f = η/η₀ and d ln f/d ln G at numbers G >= 0, each of their shape."""
