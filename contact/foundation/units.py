@@ -115,7 +115,7 @@ _MEANINGS: Mapping[str, tuple[str, tuple[str, ...]]] = {
 _REMEDIES = {
     ("Pa*s", "m^2/s"): "add the key density beside it, or write mPa*s",
     ("m/s", "rad/s"): "no wall rotates here, write the sliding speed, in m/s",
-    ("Pa*s", "K"): "no key takes a temperature, write the viscosity at that temperature, in mPa*s",
+    ("Pa*s", "K"): "write the viscosity at that temperature, in mPa*s",
     ("Pa", "N"): "divide the force by the area, and write MPa or Pa",
 }
 """The remedy for a unit of one quantity (second) where another is wanted (first)."""

@@ -26,7 +26,7 @@ from roughfilm.rom.bearing.thermal.tables import WALLS
 from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import InTime, Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
-from roughfilm.rom.lubricants.laws import LAWS
+from roughfilm.rom.lubricants.laws import LAWS, THERMAL_LAWS
 from roughfilm.rom.lubricants.shear_thinning import THINNING_LAWS
 
 NEVER_COMPRESSED = 1e-12
@@ -53,6 +53,7 @@ CHOSEN: Mapping[tuple[str | None, ...], Mapping[str, type[Part]]] = {
     ("lubricant", "compressibility"): LAWS,
     ("lubricant", "piezoviscosity"): LAWS,
     ("lubricant", "shear_thinning"): THINNING_LAWS,
+    ("lubricant", "thermoviscosity"): THERMAL_LAWS,
     ("roughness",): ROUGHNESSES,
     ("supply", None): SUPPLIES,
     ("heat", "fixed_wall"): WALLS,
@@ -328,6 +329,9 @@ KIND = Kind(
             ("roughness", "spacing"),
             ("roughness", "surface", "size"),
             ("roughness", "surface", "points"),
+            ("lubricant", "thermoviscosity", "points"),
+            ("lubricant", "thermoviscosity", "table"),
+            ("lubricant", "heat_capacity", "table"),
             *(("motion", "over_time", name) for name in COLUMNS_OVER_TIME),
         }
     ),
@@ -344,6 +348,21 @@ KIND = Kind(
         ),
         "lubricant.shear_thinning.critical_stress": ("relaxation_time",),
         "lubricant.shear_thinning.relaxation_time": ("critical_stress",),
+        "lubricant.thermoviscosity.law": (
+            "temperature_coefficient",
+            "index",
+            "a",
+            "b",
+            "c",
+            "points",
+            "grade",
+            "viscosity_index",
+            "table",
+            "valid_from",
+            "valid_to",
+        ),
+        "lubricant.heat_capacity.constant": ("table",),
+        "lubricant.heat_capacity.table": ("constant",),
         "roughness.kind": (
             "amplitude",
             "wavelength",

@@ -16,6 +16,7 @@ from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import SHAPES, AnyShape
+from roughfilm.rom.bearing.lubricant import BearingLubricant
 from roughfilm.rom.bearing.moving.body import Body
 from roughfilm.rom.bearing.moving.checks import check_motion
 from roughfilm.rom.bearing.moving.over_time import OverTime
@@ -24,11 +25,7 @@ from roughfilm.rom.bearing.supply.patches import Patch, patches, supplied
 from roughfilm.rom.bearing.supply.tables import MAX_SUPPLIES, AnySupply
 from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.ladder.kind import Scene
-from roughfilm.rom.lubricants.compressibility import Incompressible
-from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
-from roughfilm.rom.lubricants.shear_thinning import ShearThinning
-from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
-from roughfilm.rom.parts.fluid import Fluid
+from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, Roelands
 from roughfilm.rom.parts.surroundings import GaugePressure
 
 if TYPE_CHECKING:
@@ -37,42 +34,10 @@ if TYPE_CHECKING:
     from roughfilm.rom.cavitation.shape import Thickness
 
 Speed = Annotated[float, InUnit("m/s", any_sign=True)]
-Viscosity = Annotated[float, InUnit("Pa*s")]
-Density = Annotated[float, InUnit("kg/m^3")]
 Pressure = Annotated[float, InUnit("Pa")]
 Force = Annotated[float, InUnit("N")]
 Moment = Annotated[float, InUnit("N*m", any_sign=True)]
 ForcePerWidth = Annotated[float, InUnit("N/m")]
-
-
-def _law(entries: Any) -> Any:
-    """The table of a law; a law without parameters may be given by its name alone."""
-    return {"law": entries} if isinstance(entries, str) else entries
-
-
-class BearingLubricant(Fluid):
-    """The lubricant of a bearing.
-
-    Attributes
-    ----------
-    viscosity : viscosity at cavitation pressure, Pa s.
-    density : density, kg/m³, needed only for inertia, for a ram pressure and for a kinematic viscosity.
-    cavitation_pressure : cavitation pressure above ambient, Pa.
-    compressibility : law of the density over pressure.
-    piezoviscosity : law of the viscosity over pressure.
-    shear_thinning : law of the viscosity over the shear rate, for models with shear thinning.
-    """
-
-    viscosity: Viscosity
-    density: Density | None = None
-    cavitation_pressure: GaugePressure = 0.0
-    compressibility: Annotated[Compressibility, Field(discriminator="law"), BeforeValidator(_law)] = Field(
-        default_factory=Incompressible
-    )
-    piezoviscosity: Annotated[Piezoviscosity, Field(discriminator="law"), BeforeValidator(_law)] = Field(
-        default_factory=ConstantViscosity
-    )
-    shear_thinning: Annotated[ShearThinning, Field(discriminator="law")] | None = None
 
 
 class BearingMotion(Part):

@@ -110,6 +110,10 @@ class ThinningLaw(Part):
     def check(self, viscosity: float) -> None:
         """Raise ValueError if the law does not thin a lubricant of the viscosity η₀, Pa s."""
 
+    def scaled(self, ratio: float) -> Self:  # noqa: ARG002
+        """The same law where the viscosity at rest has changed by a ratio, such as at another temperature."""
+        return self
+
     def curve(self, viscosity: float) -> ThinningCurve:
         """The relative fluidity over the relative stress, of the law with the viscosity η₀, Pa s."""
         return _curve(self, viscosity)
@@ -160,6 +164,11 @@ class CarreauYasuda(ThinningLaw):
                 f"lubricant.shear_thinning.infinite_shear_viscosity: got {least:.6g} Pa s; it must be below "
                 f"lubricant.viscosity, {viscosity:.6g} Pa s"
             )
+
+    def scaled(self, ratio: float) -> Self:
+        """The same law where the viscosity at rest has changed by a ratio, such as at another temperature."""
+        given = {"relaxation_time": self.relaxation_time, "infinite_shear_viscosity": self.infinite_shear_viscosity}
+        return self.model_copy(update={name: one * ratio for name, one in given.items() if one is not None})
 
     def relative(self, shear: Array, viscosity: float) -> tuple[Array, Array]:
         """The ratio f = η/η₀ and d ln f/d ln G at numbers G >= 0, each of their shape."""

@@ -68,3 +68,10 @@ def test_the_curve_of_an_index_of_one_is_one() -> None:
 def test_entries_without_a_meaning_are_refused(entries: dict[str, object], message: str) -> None:
     with pytest.raises(ValidationError, match=message):
         CarreauYasuda.model_validate(entries)
+
+
+def test_at_another_temperature_the_law_is_the_same_over_the_stress() -> None:
+    stress = np.geomspace(1e2, 1e7, 50)
+    cold, hot = CARREAU.curve(VISCOSITY), CARREAU.scaled(0.3).curve(0.3 * VISCOSITY)
+    assert hot.stress == pytest.approx(cold.stress)
+    np.testing.assert_allclose(hot.fluidity(stress / hot.stress)[0], cold.fluidity(stress / cold.stress)[0], rtol=1e-9)
