@@ -248,6 +248,8 @@ class Bearing(Scene):
                 f"lubricant.piezoviscosity: got roelands for {self.lubricant.viscosity!r} Pa s; that law needs more "
                 f"than {least:.2g} Pa s, take barus or constant"
             )
+        if self.lubricant.shear_thinning is not None:
+            self.lubricant.shear_thinning.check(self.lubricant.viscosity)
         if self.asperities is not None:
             self._can_touch(self.asperities)
         if self.motion.approach and isinstance(self.geometry, MovingWall):
