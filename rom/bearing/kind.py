@@ -26,7 +26,8 @@ from roughfilm.rom.bearing.thermal.tables import WALLS
 from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import InTime, Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
-from roughfilm.rom.lubricants.laws import LAWS
+from roughfilm.rom.lubricants.laws import LAWS, THERMAL_LAWS
+from roughfilm.rom.lubricants.shear_thinning import THINNING_LAWS
 
 NEVER_COMPRESSED = 1e-12
 """Compression that stands for an incompressible lubricant in fits."""
@@ -51,6 +52,8 @@ CHOSEN: Mapping[tuple[str | None, ...], Mapping[str, type[Part]]] = {
     ("geometry",): SHAPES,
     ("lubricant", "compressibility"): LAWS,
     ("lubricant", "piezoviscosity"): LAWS,
+    ("lubricant", "shear_thinning"): THINNING_LAWS,
+    ("lubricant", "thermoviscosity"): THERMAL_LAWS,
     ("roughness",): ROUGHNESSES,
     ("supply", None): SUPPLIES,
     ("heat", "fixed_wall"): WALLS,
@@ -161,7 +164,13 @@ NUMBERS = {
 
 def remarks(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
     """The approach of the walls, the pressure at which the film ruptures, and the part that the quantities hold for."""
-    return (*_approach(entries), *_rupture(entries, quantities), *_of_the_whole(entries, quantities))
+    flash = ("flash_temperature is an estimate: it has no uncertainty, but a range from its low to its high estimate",)
+    return (
+        *_approach(entries),
+        *_rupture(entries, quantities),
+        *_of_the_whole(entries, quantities),
+        *(flash if "flash_temperature" in quantities and quantities["flash_temperature"].value else ()),
+    )
 
 
 def squeezed(entries: Mapping[str, Any]) -> bool:
@@ -326,6 +335,9 @@ KIND = Kind(
             ("roughness", "spacing"),
             ("roughness", "surface", "size"),
             ("roughness", "surface", "points"),
+            ("lubricant", "thermoviscosity", "points"),
+            ("lubricant", "thermoviscosity", "table"),
+            ("lubricant", "heat_capacity", "table"),
             *(("motion", "over_time", name) for name in COLUMNS_OVER_TIME),
         }
     ),
@@ -333,6 +345,30 @@ KIND = Kind(
     replaces={
         "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
         "lubricant.piezoviscosity.law": ("pressure_coefficient", "index"),
+        "lubricant.shear_thinning.law": (
+            "index",
+            "critical_stress",
+            "relaxation_time",
+            "exponent",
+            "infinite_shear_viscosity",
+        ),
+        "lubricant.shear_thinning.critical_stress": ("relaxation_time",),
+        "lubricant.shear_thinning.relaxation_time": ("critical_stress",),
+        "lubricant.thermoviscosity.law": (
+            "temperature_coefficient",
+            "index",
+            "a",
+            "b",
+            "c",
+            "points",
+            "grade",
+            "viscosity_index",
+            "table",
+            "valid_from",
+            "valid_to",
+        ),
+        "lubricant.heat_capacity.constant": ("table",),
+        "lubricant.heat_capacity.table": ("constant",),
         "roughness.kind": (
             "amplitude",
             "wavelength",

@@ -16,18 +16,16 @@ from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.geometry.shapes import SHAPES, AnyShape
+from roughfilm.rom.bearing.lubricant import BearingLubricant
 from roughfilm.rom.bearing.moving.body import Body
 from roughfilm.rom.bearing.moving.checks import check_motion
 from roughfilm.rom.bearing.moving.over_time import OverTime
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
 from roughfilm.rom.bearing.supply.patches import Patch, patches, supplied
 from roughfilm.rom.bearing.supply.tables import MAX_SUPPLIES, AnySupply
-from roughfilm.rom.bearing.thermal.tables import Heat
+from roughfilm.rom.bearing.thermal.tables import Heat, Temperature
 from roughfilm.rom.ladder.kind import Scene
-from roughfilm.rom.lubricants.compressibility import Incompressible
-from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity
-from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity, Roelands
-from roughfilm.rom.parts.fluid import Fluid
+from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, Roelands
 from roughfilm.rom.parts.surroundings import GaugePressure
 
 if TYPE_CHECKING:
@@ -36,40 +34,10 @@ if TYPE_CHECKING:
     from roughfilm.rom.cavitation.shape import Thickness
 
 Speed = Annotated[float, InUnit("m/s", any_sign=True)]
-Viscosity = Annotated[float, InUnit("Pa*s")]
-Density = Annotated[float, InUnit("kg/m^3")]
 Pressure = Annotated[float, InUnit("Pa")]
 Force = Annotated[float, InUnit("N")]
 Moment = Annotated[float, InUnit("N*m", any_sign=True)]
 ForcePerWidth = Annotated[float, InUnit("N/m")]
-
-
-def _law(entries: Any) -> Any:
-    """The table of a law; a law without parameters may be given by its name alone."""
-    return {"law": entries} if isinstance(entries, str) else entries
-
-
-class BearingLubricant(Fluid):
-    """The lubricant of a bearing.
-
-    Attributes
-    ----------
-    viscosity : viscosity at cavitation pressure, Pa s.
-    density : density, kg/m³, needed only for inertia, for a ram pressure and for a kinematic viscosity.
-    cavitation_pressure : cavitation pressure above ambient, Pa.
-    compressibility : law of the density over pressure.
-    piezoviscosity : law of the viscosity over pressure.
-    """
-
-    viscosity: Viscosity
-    density: Density | None = None
-    cavitation_pressure: GaugePressure = 0.0
-    compressibility: Annotated[Compressibility, Field(discriminator="law"), BeforeValidator(_law)] = Field(
-        default_factory=Incompressible
-    )
-    piezoviscosity: Annotated[Piezoviscosity, Field(discriminator="law"), BeforeValidator(_law)] = Field(
-        default_factory=ConstantViscosity
-    )
 
 
 class BearingMotion(Part):
@@ -103,11 +71,13 @@ class Inlet(Part):
     theta : density ratio at the inlet; below 1 starved, 1 flooded, above 1 pressurised.
     pressure : pressure at the inlet above ambient, Pa, in place of theta.
     ram_factor : ram pressure over ρ u²/2, which is added to the pressure at the inlet.
+    temperature : temperature of the new lubricant there, K; by default that of the supplied lubricant.
     """
 
     theta: PositiveNumber | None = None
     pressure: GaugePressure | None = None
     ram_factor: Annotated[float, BeforeValidator(plain_number)] = 0.0
+    temperature: Temperature | None = None
 
     @model_validator(mode="after")
     def _one_of_two(self) -> Self:
@@ -278,6 +248,8 @@ class Bearing(Scene):
                 f"lubricant.piezoviscosity: got roelands for {self.lubricant.viscosity!r} Pa s; that law needs more "
                 f"than {least:.2g} Pa s, take barus or constant"
             )
+        if self.lubricant.shear_thinning is not None:
+            self.lubricant.shear_thinning.check(self.lubricant.viscosity)
         if self.asperities is not None:
             self._can_touch(self.asperities)
         if self.motion.approach and isinstance(self.geometry, MovingWall):
@@ -379,6 +351,11 @@ class Bearing(Scene):
             raise ValueError("asperities.solid: is missing; give the solid of the rough wall")
         if isinstance(self.roughness, StoredTable) and asperities.solid is not None:
             raise ValueError("asperities.solid: got one, but the stored table has its own solids; leave it out")
+        if isinstance(self.roughness, StoredTable) and asperities.solid_heat is not None:
+            raise ValueError(
+                "asperities.solid_heat: got one, but a stored table has no spots in contact, of which the flash "
+                "temperature follows; give the surface as roughness, or leave it out"
+            )
 
     def _can_be_joined(self, pieces: str) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
@@ -443,6 +420,25 @@ class Bearing(Scene):
         """The bearing at another sliding speed, m/s."""
         return self.model_copy(update={"motion": self.motion.model_copy(update={"speed": speed})})
 
+    def at_temperature(self, temperature: float) -> Self:
+        """The bearing whose film has a temperature, K; what flows through restrictors keeps that of its supply."""
+        supplied = self.lubricant.temperature
+        supply = tuple(
+            one if one.temperature is not None else one.model_copy(update={"temperature": supplied})
+            for one in self.supply
+        )
+        return self.model_copy(update={"lubricant": self.lubricant.at(temperature), "supply": supply})
+
+    def isothermal(self) -> Self:
+        """The bearing without temperature: its lubricant has everywhere the viscosity of the supplied one."""
+        supply = tuple(one.model_copy(update={"temperature": None}) for one in self.supply)
+        boundary = self.boundary.model_copy(
+            update={"inlet": self.boundary.inlet.model_copy(update={"temperature": None})}
+        )
+        lubricant = self.lubricant.model_copy(update={"thermoviscosity": None})
+        update = {"lubricant": lubricant, "heat": None, "supply": supply, "boundary": boundary}
+        return self.model_copy(update=update)
+
     @property
     def turning_radius(self) -> float | None:
         """The radius at which the speed of a rotating wall is given, m; None if the wall does not rotate."""
@@ -499,6 +495,12 @@ class Bearing(Scene):
         return patches(self.geometry, self.supply)
 
     @property
+    def supplied(self) -> tuple[BearingLubricant, ...]:
+        """The lubricant ahead of each supply, at its temperature."""
+        lubricant = self.lubricant
+        return tuple(lubricant if one.temperature is None else lubricant.at(one.temperature) for one in self.supply)
+
+    @property
     def inflows(self) -> "tuple[Inflow, ...]":
         """The inflows of the supplies."""
         from roughfilm.rom.bearing.supply.restrictors import inflows  # slow to import
@@ -506,8 +508,8 @@ class Bearing(Scene):
         return inflows(
             self.supply_patches,
             self.supply,
-            viscosity=self.lubricant.viscosity,
-            density=self.lubricant.density,
+            viscosities=[one.viscosity for one in self.supplied],
+            densities=[one.density for one in self.supplied],
             cavitation_pressure=self.lubricant.cavitation_pressure,
         )
 

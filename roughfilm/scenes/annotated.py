@@ -163,6 +163,8 @@ def sample_of(key: str, node: Node) -> object:
     optional = _examples()["optional"]
     if node.get("type") == "array" and f"{key}[]" in optional:
         return optional[f"{key}[]"]
+    if any("prefixItems" in one for one in node.get("prefixItems", ())):  # rows of quantities
+        return [[sample_of(cell[UNIT], cell) for cell in row["prefixItems"]] for row in node["prefixItems"]]
     if key in optional:
         return optional[key]
     if "enum" in node:
@@ -189,7 +191,10 @@ def _values() -> Mapping[str, object]:
 
 
 def _wrapped(text: str, meaning: str) -> Iterator[str]:
-    """A text with a comment behind it, which goes on below where the line is too long."""
+    """A text with a comment behind it, which goes on below where the line is too long, or begins there."""
+    if len(text) > WIDTH - 43:
+        yield text
+        text = " " * COLUMN
     width = WIDTH - max(len(text), COLUMN) - 3 if text else WIDTH - 2
     comments = textwrap.wrap(meaning, max(width, 40)) or [""]
     for place, comment in enumerate(comments):

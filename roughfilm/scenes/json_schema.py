@@ -84,6 +84,10 @@ def _or_text(_generator: _SceneSchema, inner: dict[str, Any]) -> dict[str, Any]:
     return {"anyOf": [inner, {"type": "string"}]}
 
 
+def _or_heat_capacity(_generator: _SceneSchema, inner: dict[str, Any]) -> dict[str, Any]:
+    return {"anyOf": [quantity(InUnit("J/(kg*K)")), inner]}
+
+
 def _or_one(_generator: _SceneSchema, inner: dict[str, Any]) -> dict[str, Any]:
     return {"anyOf": [inner["prefixItems"][0], inner]}
 
@@ -92,6 +96,8 @@ _ALSO: Mapping[str, Callable[[_SceneSchema, dict[str, Any]], dict[str, Any]]] = 
     "_pair": _or_one,
     "_law": _or_text,
     "checked": _or_text,
+    "rows": _or_text,
+    "_constant": _or_heat_capacity,
     "_described": _SceneSchema._of_surface,
 }
 """What a file may hold in other forms than that of the class, by the function that reads it."""

@@ -63,7 +63,7 @@ def test_it_shows_the_keys_that_may_be_left_out_with_unit_and_meaning():
 def test_a_key_in_a_comment_may_be_written(tmp_path):
     text = annotated_scene("bearing", "linear")
     path = tmp_path / "scene.toml"
-    path.write_text(text.replace('# density = "870', 'density = "870'), encoding="utf-8")
+    path.write_text(text.replace('# density = "870', 'density = "870', 1), encoding="utf-8")
     assert rf.load_scene(path).lubricant.density == 870
 
 

@@ -1,0 +1,1 @@
+"""Viscosity, density and heat of lubricants over temperature."""

@@ -1,0 +1,64 @@
+"""The base classes of the laws of the viscosity over temperature."""
+
+import math
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.entries import InUnit, Part
+from roughfilm.contact.foundation.errors import InputError
+
+Temperature = Annotated[float, InUnit("K")]
+ZERO_CELSIUS = 273.15
+"""0 °C, K."""
+
+LOG_LIMIT = 200.0
+"""Logarithm of a viscosity over a usual one, above which a law refuses a temperature as too low."""
+
+
+def celsius(temperature: float) -> str:
+    """The text of a temperature, K, in °C.
+
+    Examples
+    --------
+    >>> celsius(313.15)
+    '40 °C'
+    """
+    return f"{temperature - ZERO_CELSIUS:.4g} °C"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Supplied:
+    """The state in which a lubricant is supplied.
+
+    Attributes
+    ----------
+    temperature : temperature T_s, K.
+    viscosity : viscosity η_s at it, Pa s.
+    """
+
+    temperature: float
+    viscosity: float
+
+
+class TemperatureLaw(Part):
+    """A law of the viscosity over the temperature T, K, at cavitation pressure."""
+
+    def refuse_below(self, limit: float, temperature: Array) -> None:
+        """Raise InputError if a temperature, K, is at or below the limit at which the law has no viscosity."""
+        lowest = float(temperature.min(initial=math.inf))
+        if not lowest > limit:
+            raise InputError(
+                f"lubricant.thermoviscosity: got {celsius(lowest)}; the law {getattr(self, 'law', '')} has no "
+                f"viscosity up to {celsius(limit)}, raise the temperature or take another law"
+            )
+
+
+class AnchoredLaw(TemperatureLaw):
+    """A law that gives η/η_s, so that it needs the viscosity of the supplied lubricant."""
+
+
+class AbsoluteLaw(TemperatureLaw):
+    """A law that gives the viscosity itself: the kinematic one ν = η/ρ, m²/s, if ``kinematic``, else η, Pa s."""
+
+    kinematic: ClassVar[bool] = False

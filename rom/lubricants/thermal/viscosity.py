@@ -1,0 +1,190 @@
+"""Laws of the viscosity over temperature with few constants: exponential, Vogel's and Roelands'."""
+
+import math
+from functools import cached_property
+from itertools import pairwise
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from pydantic import model_validator
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.entries import InUnit, PositiveNumber
+from roughfilm.rom.lubricants.thermal.law import (
+    LOG_LIMIT,
+    AbsoluteLaw,
+    AnchoredLaw,
+    Supplied,
+    Temperature,
+    celsius,
+)
+from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY
+
+TemperatureCoefficient = Annotated[float, InUnit("K^-1", any_sign=True)]
+Viscosity = Annotated[float, InUnit("Pa*s")]
+Point = tuple[Temperature, Viscosity]
+
+EXPONENTIAL_SPAN = 30.0
+"""Distance from T_s within which the exponential law is valid, K."""
+
+ROELANDS_TEMPERATURE = 138.0
+"""Roelands' constant: the viscosity of all oils is infinite at -135 °C, here in K."""
+
+
+class ExponentialViscosity(AnchoredLaw):
+    """The law η = η_s exp(-β (T - T_s)), within about 30 K of T_s. Source: Reynolds 1886.
+
+    The coefficient β of a mineral oil falls with temperature, about 0.04/K at 40 °C and 0.02/K at 80 °C, so that 30 K
+    away from T_s the law differs by some 20 % from the laws below.
+
+    Attributes
+    ----------
+    temperature_coefficient : coefficient β, 1/K.
+
+    Examples
+    --------
+    >>> law = ExponentialViscosity.model_validate({"law": "exponential", "temperature_coefficient": "0.04 1/K"})
+    >>> viscosity, slope = law.viscosity(np.array([320.0]), Supplied(temperature=310.0, viscosity=0.03))
+    >>> print(f"{viscosity[0]:.6f} {slope[0]:.7f}")
+    0.020110 -0.0008044
+    """
+
+    law: Literal["exponential"]
+    temperature_coefficient: TemperatureCoefficient
+
+    def valid(self, supplied: Supplied) -> tuple[float, float]:
+        """The lowest and the highest valid temperature, K."""
+        return supplied.temperature - EXPONENTIAL_SPAN, supplied.temperature + EXPONENTIAL_SPAN
+
+    def viscosity(self, temperature: Array, supplied: Supplied) -> tuple[Array, Array]:
+        """The viscosity η, Pa s, and dη/dT; shape of ``temperature``, K."""
+        viscosity = supplied.viscosity * np.exp(-self.temperature_coefficient * (temperature - supplied.temperature))
+        return viscosity, -self.temperature_coefficient * viscosity
+
+
+class RoelandsTemperature(AnchoredLaw):
+    """The law η = exp((ln η_s + 9.67) ((T_s - 138 K)/(T - 138 K))^S - 9.67), η_s in Pa s. Source: Roelands 1966.
+
+    With ``piezoviscosity`` by Roelands both are his law η(p, T) = exp((ln η_s + 9.67) (1 + p/0.196 GPa)^Z
+    ((T_s - 138 K)/(T - 138 K))^S - 9.67).
+
+    Attributes
+    ----------
+    index : index S, about 0.9 to 1.5 for mineral oils.
+
+    Examples
+    --------
+    >>> law = RoelandsTemperature.model_validate({"law": "roelands", "index": 1.1})
+    >>> viscosity, slope = law.viscosity(np.array([340.0]), Supplied(temperature=313.0, viscosity=0.04))
+    >>> print(f"{viscosity[0]:.7f} {slope[0]:.8f}")
+    0.0155955 -0.00046788
+    """
+
+    law: Literal["roelands"]
+    index: PositiveNumber
+
+    def valid(self, supplied: Supplied) -> tuple[float, float]:  # noqa: ARG002
+        """The lowest and the highest valid temperature, K."""
+        return ROELANDS_TEMPERATURE, math.inf
+
+    def viscosity(self, temperature: Array, supplied: Supplied) -> tuple[Array, Array]:
+        """The viscosity η, Pa s, and dη/dT; shape of ``temperature``, K; InputError at 138 K and below."""
+        depth = math.log(supplied.viscosity) + LOG_VISCOSITY
+        span = supplied.temperature - ROELANDS_TEMPERATURE
+        nearest = ROELANDS_TEMPERATURE + abs(span) * (abs(depth) / LOG_LIMIT) ** (1 / self.index)
+        self.refuse_below(nearest, np.append(temperature, supplied.temperature))
+        above = (temperature - ROELANDS_TEMPERATURE) / span
+        # As (…)^S - 1, so that the viscosity at T_s is η_s to the last digit.
+        excess = np.expm1(-self.index * np.log(above))
+        viscosity = supplied.viscosity * np.exp(depth * excess)
+        return viscosity, -viscosity * depth * self.index * (1 + excess) / (above * span)
+
+
+class Vogel(AbsoluteLaw):
+    """The law η = a exp(b/(T - c)) by its constants, or through three points. Source: Vogel 1921.
+
+    Attributes
+    ----------
+    a, b, c : constants: a viscosity, Pa s, and two temperatures, K.
+    points : three rows of temperature and viscosity, in place of the constants.
+    valid_from, valid_to : temperatures between which the constants are valid, K; outside a result has a warning.
+
+    Examples
+    --------
+    >>> points = [["40 degC", "28 mPa*s"], ["70 degC", "9.8 mPa*s"], ["100 degC", "4.6 mPa*s"]]
+    >>> law = Vogel.model_validate({"law": "vogel", "points": points})
+    >>> print(*(f"{one:.6g}" for one in law.constants))
+    4.37919e-05 998.907 158.533
+    >>> print(f"{law.viscosity(np.array([343.15]))[0][0]:.6f}")
+    0.009800
+    """
+
+    law: Literal["vogel"]
+    a: Viscosity | None = None
+    b: Temperature | None = None
+    c: Temperature | None = None
+    points: tuple[Point, Point, Point] | None = None
+    valid_from: Temperature | None = None
+    valid_to: Temperature | None = None
+
+    @model_validator(mode="after")
+    def _has_constants(self) -> Self:
+        given = [name for name in "abc" if getattr(self, name) is not None]
+        if self.points is None and len(given) < 3:
+            raise ValueError(f"got {' and '.join(given) or 'no constant'}; give a, b and c, or three points")
+        if self.points is not None and given:
+            raise ValueError(f"points: got them and {' and '.join(given)}; give the constants or points")
+        if self.points is not None:
+            check_points(self.points)
+            self._can_be_fitted(self.points)
+        low, high = self.valid()
+        if low >= high:
+            raise ValueError(f"valid_to: got {celsius(high)}; it must be above {celsius(low)}, where the range begins")
+        return self
+
+    @staticmethod
+    def _can_be_fitted(points: tuple[Point, Point, Point]) -> None:
+        (first, above), (second, middle), (third, below) = points
+        slopes = math.log(above / middle) / (second - first), math.log(middle / below) / (third - second)
+        if not slopes[0] > slopes[1] * (1 + 1e-6):
+            raise ValueError(
+                f"points: got {slopes[0]:.4g}/K as the fall of ln η from point 1 to 2 and {slopes[1]:.4g}/K from 2 "
+                "to 3; it must fall more slowly at the higher temperatures, take exponential or tabulated"
+            )
+
+    @cached_property
+    def constants(self) -> tuple[float, float, float]:
+        """The constants a, Pa s, b and c, K."""
+        if self.points is None:
+            assert self.a is not None
+            assert self.b is not None
+            assert self.c is not None
+            return self.a, self.b, self.c
+        (t1, v1), (t2, v2), (t3, v3) = self.points
+        ratio = math.log(v1 / v2) * (t3 - t2) / (math.log(v2 / v3) * (t2 - t1))
+        c = t1 - (t3 - t1) / (ratio - 1)
+        b = math.log(v1 / v2) * (t1 - c) * (t2 - c) / (t2 - t1)
+        return v2 * math.exp(-b / (t2 - c)), b, c
+
+    def valid(self) -> tuple[float, float]:
+        """The lowest and the highest valid temperature, K: the given ones, or those of the points."""
+        low, high = (self.constants[2], math.inf) if self.points is None else (self.points[0][0], self.points[-1][0])
+        return low if self.valid_from is None else self.valid_from, high if self.valid_to is None else self.valid_to
+
+    def viscosity(self, temperature: Array) -> tuple[Array, Array]:
+        """The viscosity η, Pa s, and dη/dT; shape of ``temperature``, K; InputError near c and below."""
+        a, b, c = self.constants
+        self.refuse_below(c + b / LOG_LIMIT, temperature)
+        above = temperature - c
+        viscosity = a * np.exp(b / above)
+        return viscosity, -viscosity * b / above**2
+
+
+def check_points(points: tuple[Point, ...]) -> None:
+    """Raise ValueError unless the temperature of points rises and their viscosity falls."""
+    for number, (before, after) in enumerate(pairwise(points), 2):
+        if not (after[0] > before[0] and after[1] < before[1]):
+            raise ValueError(
+                f"got {celsius(after[0])}, {after[1]:.4g} as point {number} after {celsius(before[0])}, "
+                f"{before[1]:.4g}; the temperature must rise and the viscosity fall"
+            )

@@ -1,0 +1,1 @@
+"""Exact solutions of films with temperature and of solids under friction heat, the references of numerical ones."""
