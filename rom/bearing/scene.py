@@ -248,6 +248,8 @@ class Bearing(Scene):
                 f"lubricant.piezoviscosity: got roelands for {self.lubricant.viscosity!r} Pa s; that law needs more "
                 f"than {least:.2g} Pa s, take barus or constant"
             )
+        if self.lubricant.shear_thinning is not None:
+            self.lubricant.shear_thinning.check(self.lubricant.viscosity)
         if self.asperities is not None:
             self._can_touch(self.asperities)
         if self.motion.approach and isinstance(self.geometry, MovingWall):
@@ -349,6 +351,11 @@ class Bearing(Scene):
             raise ValueError("asperities.solid: is missing; give the solid of the rough wall")
         if isinstance(self.roughness, StoredTable) and asperities.solid is not None:
             raise ValueError("asperities.solid: got one, but the stored table has its own solids; leave it out")
+        if isinstance(self.roughness, StoredTable) and asperities.solid_heat is not None:
+            raise ValueError(
+                "asperities.solid_heat: got one, but a stored table has no spots in contact, of which the flash "
+                "temperature follows; give the surface as roughness, or leave it out"
+            )
 
     def _can_be_joined(self, pieces: str) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure
