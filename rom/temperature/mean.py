@@ -133,8 +133,9 @@ def mean_temperature(
     Raises
     ------
     ConvergenceError
-        If the balances do not meet the tolerance, or liquid circulates, gives no heat away and has no steady
-        temperature up to ``MAX_HEATING``. Newton's method approaches it from below, so that it exceeds every iterate.
+        If the balances do not meet the tolerance, or the liquid heats by more than ``MAX_HEATING``, as where it
+        circulates and gives no heat away. Newton's method approaches the temperature from below, so that it exceeds
+        every iterate.
 
     Source: conservation of energy; linear upwind differences, Warming and Beam 1976, doi:10.2514/3.61457.
     """
@@ -215,8 +216,8 @@ def _runaway(solution: Solution, place: tuple[np.intp, ...]) -> ConvergenceError
     """The error of a film without a steady temperature, at the place of the largest one."""
     x, y = solution.grid.x[place[0]], solution.grid.y[place[1]]
     return ConvergenceError(
-        f"temperature: the liquid at x = {x:.4g}, y = {y:.4g} circulates and heats by more than {MAX_HEATING:g} K, as "
-        "it neither leaves the film nor gives its heat to a wall; take walls that take heat, or supply more lubricant",
+        f"temperature: the liquid at x = {x:.4g}, y = {y:.4g} heats by more than {MAX_HEATING:g} K, as too little of "
+        "it leaves the film; supply more lubricant, lower the speed, or take walls that take heat",
         outcome=Outcome.DIVERGED,
     )
 
