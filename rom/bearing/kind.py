@@ -336,6 +336,7 @@ KIND = Kind(
             ("lubricant", "thermoviscosity", "points"),
             ("lubricant", "thermoviscosity", "table"),
             ("lubricant", "heat_capacity", "table"),
+            ("asperities", "friction", "table"),
             *(("motion", "over_time", name) for name in COLUMNS_OVER_TIME),
         }
     ),
@@ -358,6 +359,8 @@ KIND = Kind(
         ),
         "lubricant.heat_capacity.constant": ("table",),
         "lubricant.heat_capacity.table": ("constant",),
+        "asperities.friction.constant": ("table",),
+        "asperities.friction.table": ("constant",),
         "roughness.kind": (
             "amplitude",
             "wavelength",

@@ -63,7 +63,7 @@ def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
         values |= {"contact_load": (pressed, "N"), "film_load": (load - pressed, "N")}
     if "friction_coefficient" in quantities:
         values["contact_share"] = (pressed / load, "1")
-    flash = flash_temperature(scene, contact.pressure_max, scene.asperities.friction)
+    flash = flash_temperature(scene, contact.pressure_max, scene.boundary_friction)
     if flash is not None:
         values |= dict(zip(FLASH, ((flash.mean, "K"), (flash.low, "K"), (flash.high, "K")), strict=True))
     return quantities | {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
@@ -80,7 +80,7 @@ def mixed_uncertainties(scene: Bearing, solution: Solution, quantities: Mapping[
     load = film_load + contact_load or 1.0
     pressed = min(of_contact * contact_load, load) / load
     of_both = of_film * film_load / load + pressed
-    boundary = scene.asperities.friction * contact_load
+    boundary = scene.boundary_friction * contact_load
     friction = quantities["friction_per_width"].value
     of_shear = of_film + asperities.friction_uncertainty(narrowest)
     of_friction = (of_shear * abs(friction - boundary) + of_contact * boundary) / (abs(friction) or 1.0)
@@ -110,7 +110,7 @@ def mixed_warnings(scene: Bearing, solution: Solution) -> list[str]:
     """Warnings about a flash temperature outside of the range of its estimate."""
     assert scene.asperities is not None
     pressure = _contact(scene, solution).pressure_max
-    flash = flash_temperature(scene, pressure, scene.asperities.friction)
+    flash = flash_temperature(scene, pressure, scene.boundary_friction)
     return [] if flash is None else flash_warnings(scene, pressure, flash)
 
 
