@@ -81,7 +81,7 @@ The factors agree with those of the library pint to the last bit. Two names diff
 _ANGLES = frozenset({"rad", "deg", "turn", "rev", "rpm", "π"})
 """Units whose presence makes a rotational speed one in angles per time; without them it counts revolutions."""
 
-_CELSIUS, _ZERO_CELSIUS = "degC", 273.15
+_CELSIUS, ZERO_CELSIUS = "degC", 273.15
 
 _MEANINGS: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "m": ("a length", ("um", "mm", "m", "nm", "cm", "km", "in", "mil")),
@@ -331,7 +331,7 @@ def converted(text: object, base: str) -> float:
         value = float(number) * factor
     else:
         value = float(number) * whole if times else float(number) / whole
-    value += _ZERO_CELSIUS if unit == _CELSIUS else 0.0
+    value += ZERO_CELSIUS if unit == _CELSIUS else 0.0
     # A number that rounds to zero is as small as one can be, and not the zero that a key may allow.
     return value if value or not _NONZERO.match(number) else sys.float_info.min
 

@@ -27,6 +27,7 @@ from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import InTime, Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.lubricants.laws import LAWS, THERMAL_LAWS
+from roughfilm.rom.lubricants.shear_thinning import THINNING_LAWS
 
 NEVER_COMPRESSED = 1e-12
 """Compression that stands for an incompressible lubricant in fits."""
@@ -51,6 +52,7 @@ CHOSEN: Mapping[tuple[str | None, ...], Mapping[str, type[Part]]] = {
     ("geometry",): SHAPES,
     ("lubricant", "compressibility"): LAWS,
     ("lubricant", "piezoviscosity"): LAWS,
+    ("lubricant", "shear_thinning"): THINNING_LAWS,
     ("lubricant", "thermoviscosity"): THERMAL_LAWS,
     ("roughness",): ROUGHNESSES,
     ("supply", None): SUPPLIES,
@@ -344,6 +346,15 @@ KIND = Kind(
     replaces={
         "lubricant.compressibility.law": ("bulk_modulus", "c1", "c2", "table", "fit"),
         "lubricant.piezoviscosity.law": ("pressure_coefficient", "index"),
+        "lubricant.shear_thinning.law": (
+            "index",
+            "critical_stress",
+            "relaxation_time",
+            "exponent",
+            "infinite_shear_viscosity",
+        ),
+        "lubricant.shear_thinning.critical_stress": ("relaxation_time",),
+        "lubricant.shear_thinning.relaxation_time": ("critical_stress",),
         "lubricant.thermoviscosity.law": (
             "temperature_coefficient",
             "index",

@@ -12,6 +12,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity, Thermoviscosity
 from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.lubricants.shear_thinning import ShearThinning
 from roughfilm.rom.lubricants.thermal.law import AbsoluteLaw, AnchoredLaw, Supplied, Temperature, celsius
 from roughfilm.rom.lubricants.thermal.tabulated import AnyHeatCapacity
 from roughfilm.rom.lubricants.thermal.viscosity import RoelandsTemperature
@@ -55,6 +56,7 @@ class BearingLubricant(Fluid):
     compressibility : law of the density over pressure.
     piezoviscosity : law of the viscosity over pressure.
     thermoviscosity : law of the viscosity over temperature; without it there is no temperature.
+    shear_thinning : law of the viscosity over the shear rate, which models with shear thinning use.
     """
 
     viscosity: Viscosity = cast(float, None)
@@ -71,6 +73,7 @@ class BearingLubricant(Fluid):
         default_factory=ConstantViscosity
     )
     thermoviscosity: Annotated[Thermoviscosity, Field(discriminator="law")] | None = None
+    shear_thinning: Annotated[ShearThinning, Field(discriminator="law")] | None = None
 
     @model_validator(mode="after")
     def _has_a_viscosity(self) -> Self:
@@ -213,8 +216,15 @@ class BearingLubricant(Fluid):
         place = np.array([temperature])
         viscosity = float(self.viscosity_at(place)[0][0])
         density = None if self.density is None else float(self.density_at(place)[0][0])
-        update = {"temperature": temperature, "viscosity": viscosity, "density": density}
-        return self.model_copy(update=update | {"thermal_expansion": self.expansion})
+        law = self.shear_thinning
+        update = {
+            "temperature": temperature,
+            "viscosity": viscosity,
+            "density": density,
+            "thermal_expansion": self.expansion,
+            "shear_thinning": None if law is None else law.scaled(viscosity / self.viscosity),
+        }
+        return self.model_copy(update=update)
 
     def temperature_warnings(self, lowest: float, highest: float) -> list[str]:
         """A warning if temperatures, K, lie outside of the valid range of the law of the viscosity."""

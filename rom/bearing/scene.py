@@ -23,7 +23,7 @@ from roughfilm.rom.bearing.moving.over_time import OverTime
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
 from roughfilm.rom.bearing.supply.patches import Patch, patches, supplied
 from roughfilm.rom.bearing.supply.tables import MAX_SUPPLIES, AnySupply
-from roughfilm.rom.bearing.thermal.tables import Heat
+from roughfilm.rom.bearing.thermal.tables import Heat, Temperature
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, Roelands
 from roughfilm.rom.parts.surroundings import GaugePressure
@@ -71,11 +71,13 @@ class Inlet(Part):
     theta : density ratio at the inlet; below 1 starved, 1 flooded, above 1 pressurised.
     pressure : pressure at the inlet above ambient, Pa, in place of theta.
     ram_factor : ram pressure over ρ u²/2, which is added to the pressure at the inlet.
+    temperature : temperature of the new lubricant there, K; by default that of the supplied lubricant.
     """
 
     theta: PositiveNumber | None = None
     pressure: GaugePressure | None = None
     ram_factor: Annotated[float, BeforeValidator(plain_number)] = 0.0
+    temperature: Temperature | None = None
 
     @model_validator(mode="after")
     def _one_of_two(self) -> Self:
@@ -246,6 +248,8 @@ class Bearing(Scene):
                 f"lubricant.piezoviscosity: got roelands for {self.lubricant.viscosity!r} Pa s; that law needs more "
                 f"than {least:.2g} Pa s, take barus or constant"
             )
+        if self.lubricant.shear_thinning is not None:
+            self.lubricant.shear_thinning.check(self.lubricant.viscosity)
         if self.asperities is not None:
             self._can_touch(self.asperities)
         if self.motion.approach and isinstance(self.geometry, MovingWall):
@@ -420,6 +424,25 @@ class Bearing(Scene):
         """The bearing at another sliding speed, m/s."""
         return self.model_copy(update={"motion": self.motion.model_copy(update={"speed": speed})})
 
+    def at_temperature(self, temperature: float) -> Self:
+        """The bearing whose film has a temperature, K; what flows through restrictors keeps that of its supply."""
+        supplied = self.lubricant.temperature
+        supply = tuple(
+            one if one.temperature is not None else one.model_copy(update={"temperature": supplied})
+            for one in self.supply
+        )
+        return self.model_copy(update={"lubricant": self.lubricant.at(temperature), "supply": supply})
+
+    def isothermal(self) -> Self:
+        """The bearing without temperature: its lubricant has everywhere the viscosity of the supplied one."""
+        supply = tuple(one.model_copy(update={"temperature": None}) for one in self.supply)
+        boundary = self.boundary.model_copy(
+            update={"inlet": self.boundary.inlet.model_copy(update={"temperature": None})}
+        )
+        lubricant = self.lubricant.model_copy(update={"thermoviscosity": None})
+        update = {"lubricant": lubricant, "heat": None, "supply": supply, "boundary": boundary}
+        return self.model_copy(update=update)
+
     @property
     def boundary_friction(self) -> float:
         """The coefficient of boundary friction at the temperature of the lubricant; 0 without asperities.
@@ -487,6 +510,12 @@ class Bearing(Scene):
         return patches(self.geometry, self.supply)
 
     @property
+    def supplied(self) -> tuple[BearingLubricant, ...]:
+        """The lubricant ahead of each supply, at its temperature."""
+        lubricant = self.lubricant
+        return tuple(lubricant if one.temperature is None else lubricant.at(one.temperature) for one in self.supply)
+
+    @property
     def inflows(self) -> "tuple[Inflow, ...]":
         """The inflows of the supplies."""
         from roughfilm.rom.bearing.supply.restrictors import inflows  # slow to import
@@ -494,8 +523,8 @@ class Bearing(Scene):
         return inflows(
             self.supply_patches,
             self.supply,
-            viscosity=self.lubricant.viscosity,
-            density=self.lubricant.density,
+            viscosities=[one.viscosity for one in self.supplied],
+            densities=[one.density for one in self.supplied],
             cavitation_pressure=self.lubricant.cavitation_pressure,
         )
 

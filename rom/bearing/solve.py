@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, converted, under_load
 from roughfilm.rom.bearing.film import Searched, smooth_films
 from roughfilm.rom.bearing.free.evaluated import evaluated
-from roughfilm.rom.bearing.free.solve import solve_free
+from roughfilm.rom.bearing.free.solve import PlacedFilm, WithField, solve_free
 from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.quantities import EXACT, FILM_OUTPUTS, Fields, Outputs
@@ -51,6 +51,22 @@ FilmsOnGrid = Callable[[Bearing, int], SeparableBearing[Any]]
 """films(scene, cells), the films of a model on a grid of so many cells along and across."""
 
 
+class Heat(Protocol):
+    """The coupling of the films of one scene with their temperatures."""
+
+    def film(self, *, tolerance: float, ruptures: bool) -> Callable[[Solution], Solution]:
+        """heated(solution), the film on a grid with the viscosities of its temperatures."""
+        ...
+
+    def films(self, isothermal: FilmsOnGrid) -> FilmsOnGrid:
+        """The films among which that under a load is sought."""
+        ...
+
+    def placed(self) -> Callable[[WithField], PlacedFilm]:
+        """heated(at), the film of a wall that moves freely with the viscosities of its temperatures."""
+        ...
+
+
 def solve(
     solver: Model[Bearing],
     scene: Bearing,
@@ -63,6 +79,7 @@ def solve(
     searched: Callable[[Bearing], Searched] | None = None,
     films: FilmsOnGrid | None = None,
     contact: Callable[[Bearing], ContactLaw] | None = None,
+    heat: Heat | None = None,
 ) -> Result:
     """Solve the film of a bearing on successively finer grids and estimate the uncertainty of its quantities.
 
@@ -77,6 +94,7 @@ def solve(
     searched : searched(scene), the films among which that under a load is sought; by default those of a smooth wall.
     films : films(scene, cells), the films on a grid, of models with a contact load.
     contact : contact(scene), the contact pressure over the film thickness, of these models.
+    heat : the coupling of the film with its temperatures; None of isothermal models.
 
     Raises
     ------
@@ -101,6 +119,7 @@ def solve(
             known_from=None if among is None else among.known_from,
             ruptures=ruptures,
             contact=law,
+            heat=heat,
             progress=progress,
         )
     elif scene.load is None:
@@ -108,7 +127,7 @@ def solve(
         with one_time("start"):
             load_loops(problem.shape.wide)
         wall, cpu = time.perf_counter(), working_time()
-        found = _as_given(scene, problem, request, outputs, ruptures=ruptures, progress=progress)
+        found = _as_given(scene, problem, request, outputs, ruptures=ruptures, heat=heat, progress=progress)
     else:
         with one_time("start"):
             load_loops(wide=True)
@@ -117,6 +136,8 @@ def solve(
         among = (searched or partial(smooth_films, film=film))(scene)
         if films is None:
             films = partial(_films, among=among, ruptures=ruptures, tolerance=request.tolerance)
+        if heat is not None:
+            films = heat.films(films)
         found = _under_load(scene, cells, among, films, outputs, progress)
     solution, quantities = found.levels[0]
     uncertainty = uncertainties(found.levels, found.of_factors, found.balance, exact=found.exact, apart=found.apart)
@@ -186,11 +207,24 @@ class _Found:
 
 
 def _as_given(
-    scene: Bearing, problem: Problem, request: CheckedRequest, outputs: Outputs, *, ruptures: bool, progress: Progress
+    scene: Bearing,
+    problem: Problem,
+    request: CheckedRequest,
+    outputs: Outputs,
+    *,
+    ruptures: bool,
+    heat: Heat | None,
+    progress: Progress,
 ) -> _Found:
     """The film of a given thickness."""
-    cells = (request.resolution, request.resolution)
-    solution = balance(problem, cells, tolerance=request.tolerance, ruptures=ruptures, progress=progress)
+    solution = balance(
+        problem,
+        (request.resolution, request.resolution),
+        tolerance=request.tolerance,
+        ruptures=ruptures,
+        heated=None if heat is None else heat.film(tolerance=request.tolerance, ruptures=ruptures),
+        progress=progress,
+    )
     levels = tuple((grid, outputs.quantities(scene, grid)) for grid in grid_sequence(solution))
     averaged = problem.shape.roughness is not None
     return _Found(
@@ -210,6 +244,7 @@ def _free(
     known_from: float | None,
     ruptures: bool,
     contact: ContactLaw | None,
+    heat: Heat | None,
     progress: Progress,
 ) -> _Found:
     """The film of a bearing whose wall moves freely."""
@@ -220,6 +255,7 @@ def _free(
         ruptures=ruptures,
         contact=contact,
         tolerance=min(request.tolerance, FILM_RESIDUAL),
+        heated=None if heat is None else heat.placed(),
         progress=progress,
     )
     found = evaluated(free, outputs, known_from=known_from)

@@ -15,12 +15,12 @@ def carried(state: State, coarse: Grid, fine: Grid, joined: tuple[bool, bool]) -
 
 
 def _interpolated(fields: tuple[Array, ...], known: Grid, wanted: Grid, joined: tuple[bool, bool]) -> list[Array]:
-    x = _between(known.x, known.spacing_x, wanted.x, joined=joined[0])
-    y = _between(known.y, known.spacing_y, wanted.y, joined=joined[1])
+    x = between(known.x, known.spacing_x, wanted.x, joined=joined[0])
+    y = between(known.y, known.spacing_y, wanted.y, joined=joined[1])
     return [np.ascontiguousarray(_spread(_spread(values, *x).T, *y).T) for values in fields]
 
 
-def _between(
+def between(
     known: Array, spacing: Array, wanted: Array, *, joined: bool
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
     """The two neighbours of every wanted position, and its relative distance from the first to the second."""

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.discretise import Ends, Faces, faces, network
+from roughfilm.rom.cavitation.fluid import ViscosityField
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.network import Network, State
@@ -102,6 +103,7 @@ def solve(
     tolerance: float = RESIDUAL_TOLERANCE,
     start: State | None = None,
     ruptures: bool = True,
+    heated: Callable[[Solution], Solution] | None = None,
     progress: Progress = lambda _fraction, _words: None,
 ) -> Solution:
     """Solve θ ∂h/∂t + (u/2) ∂(θh)/∂x - ∇·(θh³/12η ∇p) = 0 with p > 0 in the film, and p = 0 with θ < 1 in cavities.
@@ -114,6 +116,8 @@ def solve(
     start : state on the finest grid from which to start; without one, or if it does not converge, coarser grids provide
         the start.
     ruptures : whether the film cavitates; without cavitation pressures may be negative, and the inlet is full.
+    heated : heated(film), called on each grid: the film on that grid with other viscosities, from which the next grid
+        starts; None where viscosities do not depend on the film.
 
     Raises
     ------
@@ -137,7 +141,8 @@ def solve(
     work = [float(nx * (1 if wide else ny)) for nx, ny in sizes]
     finest = grid(problem.shape, cells)
     found: Solution | None = None
-    limit = math.inf if problem.viscosities is not None else pressure_limit(problem)
+    varies = problem.viscosities is not None or heated is not None
+    limit = math.inf if varies else pressure_limit(problem)
     exact = isinstance(problem.compressibility, Incompressible)
     unchecked = math.isfinite(limit)
     for number, size in enumerate(sizes):
@@ -158,12 +163,15 @@ def solve(
                 tolerance=tolerance,
                 ruptures=ruptures,
             )
+            if heated is not None:
+                found = heated(found)
+                problem = replace(problem, viscosities=found.problem.viscosities)
         except UnsettledError as error:
             if unchecked:
                 unchecked = False
                 _check_pressure_limit(problem, cells, limit, ruptures=ruptures)
             if given:
-                again = solve(problem, cells, tolerance=tolerance, ruptures=ruptures, progress=progress)
+                again = solve(problem, cells, tolerance=tolerance, ruptures=ruptures, heated=heated, progress=progress)
                 return replace(again, turned=turned)
             if nodes is finest:
                 raise
@@ -238,9 +246,13 @@ def on_grid(
     sweeps: int,
     tolerance: float,
     ruptures: bool = True,
+    sampled: Faces | None = None,
 ) -> Solution:
-    """The solution on one grid, after relaxation sweeps from ``start`` or from a full film at cavitation pressure."""
-    problem, sampled = problem.on(nodes), faces(problem.shape, nodes)
+    """The solution on one grid, after relaxation sweeps from ``start`` or from a full film at cavitation pressure.
+
+    ``sampled`` is the film thickness on the faces, if it is known.
+    """
+    problem, sampled = problem.on(nodes), faces(problem.shape, nodes) if sampled is None else sampled
     storage = None
     if problem.opening is not None:
         storage = problem.opening(*np.meshgrid(nodes.x, nodes.y, indexing="ij")) / sampled.thickness, 0.0
@@ -296,6 +308,22 @@ def on_grid(
         levels=(Level(shape=nodes.shape, iterations=settled.iterations, load=load),),
         coarser=None,
     )
+
+
+def with_viscosities(solution: Solution, viscosities: ViscosityField, *, tolerance: float, ruptures: bool) -> Solution:
+    """The film of a solution on its grid with other viscosities, from its state."""
+    found = on_grid(
+        replace(solution.problem, viscosities=viscosities),
+        solution.grid,
+        start=solution.state,
+        sweeps=0,
+        tolerance=tolerance,
+        ruptures=ruptures,
+        sampled=solution.faces,
+    )
+    (before,), (after,) = solution.levels[-1:], found.levels
+    level = replace(after, iterations=before.iterations + after.iterations)
+    return replace(found, turned=solution.turned, levels=(*solution.levels[:-1], level), coarser=solution.coarser)
 
 
 def coarsening(cells: tuple[int, int], *, wide: bool) -> list[tuple[int, int]]:

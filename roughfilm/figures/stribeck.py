@@ -53,10 +53,12 @@ class Drawn:
 def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | None, own: float) -> Figure:
     """Friction coefficient, separation over that of the first touch, and load on the asperities, over speed.
 
-    Without asperities, ``touching`` is None, and the panels show the least film and the peak pressure. ``own`` is the
-    speed of the scene, m/s.
+    Without asperities, ``touching`` is None, and the panels show the least film and the peak pressure. Films with a
+    temperature have a panel for it. ``own`` is the speed of the scene, m/s.
     """
-    figure, (friction, gap, share) = new_figure((11.4, 4.4), 1, 3)
+    heated = all(point.temperature is not None for curve in drawn for point in curve.points)
+    figure, every = new_figure((14.4 if heated else 11.4, 4.4), 1, 4 if heated else 3)
+    friction, gap, share, *others = every
     panels: list[tuple[Axes, str, float, str, float]] = [
         (friction, "friction_coefficient", 0.0, "coefficient of friction", 1)
     ]
@@ -66,6 +68,7 @@ def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | 
     else:
         panels.append((gap, "separation", touching, "least separation over the first touch, µm", 1e6))
         panels.append((share, "contact_share", 0.0, "load carried by asperities, %", 100))
+    panels += [(axes, "temperature", 0.0, "temperature of the film, °C", 1) for axes in others]
     for curve, colour in zip(drawn, itertools.cycle(COLOURS), strict=False):
         speeds = np.array([point.speed for point in curve.points]) * scale.factor
         for axes, name, zero, label, factor in panels:
@@ -89,13 +92,13 @@ def curves(drawn: Sequence[StribeckCurve], scale: SpeedScale, touching: float | 
                 axes.axvline(lift, color=colour, linewidth=0.8, linestyle=":")
     swept = [point.speed for curve in drawn for point in curve.points]
     if min(swept) > 0 and max(swept) > LOGARITHMIC_RATIO * min(swept):
-        for axes in (friction, gap, share):
+        for axes in every:
             axes.set_xscale("log")
             plain_logarithmic(axes.xaxis)
     friction.set_yscale("log")
     plain_logarithmic(friction.yaxis)
     if min(swept) <= own <= max(swept):
-        for axes in (friction, gap, share):
+        for axes in every:
             axes.axvline(own * scale.factor, color="0.35", linewidth=1, linestyle="--", zorder=0)
     figure.legend(*friction.get_legend_handles_labels(), fontsize=9, loc="outside upper center", ncols=6)
     if touching is not None:

@@ -45,7 +45,9 @@ def stribeck(
 
     At each speed u the separation of the walls is computed at which the film and the asperities together carry the
     load, W = W_film + W_contact. The friction coefficient is (F_film + μ W_contact)/W. Without asperities the film
-    carries the load alone, and speeds at which none does are left out.
+    carries the load alone, and speeds at which none does are left out. If the lubricant has ``thermoviscosity``,
+    ``density`` and ``heat_capacity``, each film has the one temperature at which its heat is balanced;
+    ``scene.isothermal()`` is the scene without temperature.
 
     Parameters
     ----------

@@ -16,7 +16,14 @@ from roughfilm.pages.render import render
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedState
-from roughfilm.rom.bearing.mixed.stribeck import LOAD_TOLERANCE, StribeckCurve, StribeckPoint, curve_search
+from roughfilm.rom.bearing.mixed.heated import with_temperature
+from roughfilm.rom.bearing.mixed.stribeck import (
+    LOAD_TOLERANCE,
+    TEMPERATURES,
+    StribeckCurve,
+    StribeckPoint,
+    curve_search,
+)
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.words.average import count_in_words
 from roughfilm.words.stribeck import SpeedScale, lift_off, number_of, own_point, speed_scale
@@ -31,6 +38,8 @@ COLUMNS = (
     ("film pressure, largest", "MPa", "pressure_max", 1e-6),
     ("contact pressure, largest", "MPa", "contact_pressure_max", 1e-6),
     ("cavitated", "%", "cavitated_fraction", 100.0),
+    ("film, by its heat balance", "°C", "temperature", 1.0),
+    ("lubricant, leaving", "°C", "outlet_temperature", 1.0),
 )
 """Title, unit, name and factor of each column of the table of numbers."""
 
@@ -51,7 +60,8 @@ def write_page(
     unit, factor = scale.unit, scale.factor
     middle = curves[len(curves) // 2]
     speeds, pressures = [point.speed for point in middle.points], [curve.pressure for curve in curves]
-    search = curve_search(scene, asperities, speeds, pressures, resolution, LOAD_TOLERANCE)
+    search = with_temperature(curve_search(scene, asperities, speeds, pressures, resolution, LOAD_TOLERANCE))
+    heated = middle.points[0].temperature is not None
     drawn = [
         drawn_film(
             search.again(point.speed, point.pressure, point.separation), f"{factor * point.speed:.4g} {unit}", along
@@ -59,6 +69,7 @@ def write_page(
         for point in shown_points(middle, own_point(scene, middle))
     ]
     columns = [column for column in COLUMNS if asperities is not None or column[2] not in OF_CONTACT]
+    columns = [column for column in columns if heated or column[2] not in TEMPERATURES]
     touching = None if asperities is None else asperities.touching
     render(
         "stribeck.html.j2",
@@ -89,6 +100,7 @@ def write_page(
         along=None if isinstance(scene.geometry, Ring) else along,
         table=None if asperities is None else svg(stribeck_figures.asperity_table(asperities)),
         touching=touching,
+        heated=heated,
     )
 
 
@@ -108,6 +120,7 @@ class Answer:
     film: str
     contact: str
     least: str
+    temperature: str
 
 
 def _answer(scene: Bearing, curve: StribeckCurve, scale: SpeedScale) -> Answer:
@@ -119,6 +132,7 @@ def _answer(scene: Bearing, curve: StribeckCurve, scale: SpeedScale) -> Answer:
         friction="" if own is None else number_of(own, "friction_coefficient"),
         film="" if own is None else number_of(own, "least_gap", 1e6),
         contact="" if own is None else number_of(own, "contact_share", 100.0),
+        temperature="" if own is None or own.temperature is None else number_of(own, "temperature"),
         least=f"{least.friction_coefficient:.3g} at {scale.factor * least.speed:.4g} {scale.unit}",
     )
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.fluid import ViscosityField
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
 from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
@@ -57,11 +59,13 @@ class FreeSolution:
     films : the film on each grid, the finest first.
     instants : the film at its place on each grid.
     solved : cells and iterations of all solves.
+    heated : the film over the whole width on each grid, with its temperatures; empty without temperatures.
     """
 
     films: tuple[FreeFilm, ...]
     instants: tuple[Instant, ...]
     solved: tuple[Level, ...]
+    heated: tuple[Solution, ...] = ()
 
     @property
     def scenes(self) -> tuple[Bearing, ...]:
@@ -71,7 +75,9 @@ class FreeSolution:
     @property
     def solutions(self) -> tuple[Solution, ...]:
         """The film over the whole width on each grid."""
-        return tuple(film.solution(instant) for film, instant in zip(self.films, self.instants, strict=True))
+        return self.heated or tuple(
+            film.solution(instant) for film, instant in zip(self.films, self.instants, strict=True)
+        )
 
     @property
     def balance(self) -> float | None:
@@ -101,6 +107,31 @@ class FreeSolution:
         return found
 
 
+@dataclass(frozen=True, kw_only=True)
+class PlacedFilm:
+    """A film on a grid, at the place of its wall.
+
+    Attributes
+    ----------
+    film : the film on its grid.
+    instant : the film at the place of its wall.
+    heated : the film over the whole width with its temperatures; None if they are not known.
+    """
+
+    film: FreeFilm
+    instant: Instant
+    heated: Solution | None = None
+
+    @cached_property
+    def solution(self) -> Solution:
+        """The film over the whole width."""
+        return self.film.solution(self.instant) if self.heated is None else self.heated
+
+
+WithField = Callable[[ViscosityField | None, PlacedFilm | None], PlacedFilm]
+"""at(viscosities, near), the film in equilibrium with viscosities, from one near it on the same grid."""
+
+
 def placed(film: FreeFilm, instant: Instant) -> Bearing:
     """The scene with its wall at the coordinates of an instant."""
     assert isinstance(film.scene.geometry, MovingWall)
@@ -126,6 +157,7 @@ def solve_free(
     ruptures: bool = True,
     contact: ContactLaw | None = None,
     tolerance: float,
+    heated: Callable[[WithField], PlacedFilm] | None = None,
     progress: Progress = silent,
 ) -> FreeSolution:
     """Solve for the place of the wall at which the film carries the load of the scene, or the film at a given place.
@@ -139,6 +171,8 @@ def solve_free(
     ruptures : whether the film cavitates.
     contact : the contact pressure of the walls over the film thickness; None of walls that do not touch.
     tolerance : residual at which a film is solved.
+    heated : heated(at), called on each grid: the film with the viscosities of its temperatures, from at(viscosities,
+        near); None where viscosities do not depend on the film.
 
     Raises
     ------
@@ -151,24 +185,41 @@ def solve_free(
     work = [float(nx) ** 2 for nx, _ in counts]
     films: list[FreeFilm] = []
     instants: list[Instant] = []
+    solutions: list[Solution] = []
     solved: list[Level] = []
     for number, count in enumerate(counts):
         progress(sum(work[:number]) / sum(work), f"{count[0]} × {count[1]} cells")
-        one = free_film(scene, count, film=film, ruptures=ruptures, contact=contact)
-        start = refined(films[-1], instants[-1], one) if films else None
-        try:
+
+        def at(
+            viscosities: ViscosityField | None, near: PlacedFilm | None, count: tuple[int, int] = count
+        ) -> PlacedFilm:
+            varied = film if viscosities is None else lambda one: replace(film(one), viscosities=viscosities)
+            one = free_film(scene, count, film=varied, ruptures=ruptures, contact=contact)
+            start = near.instant if near else refined(films[-1], instants[-1], one) if films else None
             instant = equilibrium(one, start, tolerance=tolerance)
+            return PlacedFilm(film=one, instant=instant)
+
+        try:
+            found = at(None, None) if heated is None else heated(at)
         except (InputError, ConvergenceError):
             if count == counts[-1]:
                 raise
             films.clear()
             instants.clear()
+            solutions.clear()
             continue
+        one, instant = found.film, found.instant
         films.append(one)
         instants.append(instant)
+        solutions += [] if found.heated is None else [found.heated]
         load = float((one.solved.grid.areas * instant.state.pressure).sum()) * one.solved.sides
         solved.append(Level(shape=one.whole.grid.shape, iterations=instant.iterations, load=load))
-    return FreeSolution(films=tuple(films[::-1]), instants=tuple(instants[::-1]), solved=tuple(solved))
+    return FreeSolution(
+        films=tuple(films[::-1]),
+        instants=tuple(instants[::-1]),
+        solved=tuple(solved),
+        heated=tuple(solutions[::-1]),
+    )
 
 
 def stiffness_of(film: FreeFilm, instant: Instant) -> Array:

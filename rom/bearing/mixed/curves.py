@@ -260,6 +260,7 @@ def curve_inputs(scene: Bearing, wall: Wall | None, resolution: int, **more: Any
     source = {} if wall is None else wall.source
     settings = {**_flat(entries), **source, **more, "resolution": resolution, "code": code()}
     by_density = scene.boundary.inlet.ram_factor or any(supply.orifice is not None for supply in scene.supply)
+    by_density = by_density or not scene.lubricant.lacking
     for name in (*IRRELEVANT, *(() if by_density else OF_DENSITY)):
         settings.pop(name, None)
     if isinstance(scene.geometry, MovingWall):

@@ -13,6 +13,7 @@ from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load
 from roughfilm.rom.bearing.quantities import load_of, nominal_area, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.exchange import Temperatures
 from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.evaluation.friction import friction
 from roughfilm.rom.cavitation.grid import Grid, grid, quarters
@@ -44,6 +45,7 @@ class MixedState:
     load : load of film and asperities together.
     contact_load : load of the asperities alone.
     friction : boundary friction plus friction of the film.
+    temperatures : temperatures that the heat of the film brings about; None of an isothermal film.
     """
 
     scene: Bearing
@@ -52,6 +54,7 @@ class MixedState:
     load: float
     contact_load: float
     friction: float
+    temperatures: Temperatures | None = None
 
     @property
     def film_load(self) -> float:
@@ -151,7 +154,10 @@ class MixedFilm:
         scene = self.scene_at(film, speed)
         problem = mixed_problem(scene, self.asperities) if self.film is None else self.film(scene)
         cells = (self.cells, self.cells)
-        solution = solve(problem, cells, start=start, tolerance=self.residual)
+        return self.state(scene, solve(problem, cells, start=start, tolerance=self.residual))
+
+    def state(self, scene: Bearing, solution: Solution) -> MixedState:
+        """The film of a scene with the contact of its asperities."""
         contact = asperity_load(solution.problem.shape, solution.grid, self.asperities)
         return mixed_state(scene, solution, contact)
 

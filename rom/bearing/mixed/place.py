@@ -120,3 +120,7 @@ class PlaceSearch:
     def coarser(self) -> Self:
         """The films on a grid of half as many cells."""
         return replace(self, cells=self.cells // 2, _near={})
+
+    def of(self, scene: Bearing) -> Self:
+        """The films of a scene with another lubricant, whose search starts from those that were solved before."""
+        return replace(self, scene=scene)

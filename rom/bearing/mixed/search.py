@@ -85,6 +85,10 @@ class Search(Protocol):
         """The films on a grid of half as many cells."""
         ...
 
+    def of(self, scene: Bearing) -> Self:
+        """The films of a scene with another lubricant, whose search starts from those that were solved before."""
+        ...
+
 
 @dataclass(kw_only=True)
 class SeparationSearch:
@@ -182,3 +186,7 @@ class SeparationSearch:
     def coarser(self) -> Self:
         """The films on a grid of half as many cells."""
         return type(self)(film=replace(self.film, cells=self.film.cells // 2))
+
+    def of(self, scene: Bearing) -> Self:
+        """The films of a scene with another lubricant, whose search starts from those that were solved before."""
+        return type(self)(film=replace(self.film, scene=scene), _states=self._states)

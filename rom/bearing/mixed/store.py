@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.checked_hdf5 import open_if_of, write_checked,
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.reading.hdf5_content import Numbers
-from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
+from roughfilm.rom.bearing.mixed.stribeck import TEMPERATURES, StribeckCurve, StribeckPoint
 from roughfilm.rom.studies.table import table_beginning
 
 SCHEMA = 1
@@ -31,14 +31,24 @@ UNITS = {
     "pressure_max": "Pa",
     "contact_pressure_max": "Pa",
     "cpu_s": "s",
+    "temperature": "degC",
+    "outlet_temperature": "degC",
 }
 """Units of the numbers of a point; all others are dimensionless."""
 
 NUMBERS = tuple(entry.name for entry in fields(StribeckPoint) if entry.type is float)
+"""The numbers that every point has."""
+
 SCATTER = ("scatter", "window_low", "window_high")
 """Groups of the numbers of points over several windows."""
 
 ROWS = ("rows",)
+
+
+def numbers_of(points: Sequence[StribeckPoint]) -> tuple[str, ...]:
+    """The names of the numbers of points, with their temperatures if they have them."""
+    heated = bool(points) and all(point.temperature is not None for point in points)
+    return (*NUMBERS, *TEMPERATURES) if heated else NUMBERS
 
 
 def save_points(
@@ -59,7 +69,7 @@ def save_points(
 
     def fill(file: h5py.File) -> None:
         write_inputs(file, inputs, SCHEMA)
-        for name in NUMBERS:
+        for name in numbers_of(points):
             write_column(file, f"points/{name}", [getattr(point, name) for point in ordered], UNITS.get(name, "1"))
         for name in sorted({name for point in ordered for name in point.uncertainty}):
             column = [point.uncertainty.get(name, np.nan) for point in ordered]
@@ -91,14 +101,16 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
     with open_if_of(inputs, path, MARK, SCHEMA, kind=KIND, remedy=REMEDY) as content:
         if content is None:
             return ()
-        columns = content.take({f"points/{name}": Numbers(shape=ROWS) for name in NUMBERS})
+        heated = tuple(name for name in TEMPERATURES if name in content.names("points"))
+        numbers = (*NUMBERS, *heated)
+        columns = content.take({f"points/{name}": Numbers(shape=ROWS) for name in numbers})
         known = [f"uncertainty/{name}" for name in content.names("uncertainty")]
         uncertainties = content.take(
             {name: Numbers(shape=(len(columns["points/speed"]),), missing=True) for name in known}
         )
     return tuple(
         StribeckPoint(
-            **{name: columns[f"points/{name}"][row].item() for name in NUMBERS},
+            **{name: columns[f"points/{name}"][row].item() for name in numbers},
             uncertainty={
                 name.removeprefix("uncertainty/"): column[row].item()
                 for name, column in uncertainties.items()
@@ -112,13 +124,14 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
 def write_csv(path: Path, curves: Sequence[StribeckCurve]) -> None:
     """Write a row for each point with its uncertainties; the first line has names and units."""
     uncertain = sorted({name for curve in curves for point in curve.points for name in point.uncertainty})
-    heads = [f"{name} ({UNITS.get(name, '1')})" for name in NUMBERS]
+    names = numbers_of([point for curve in curves for point in curve.points])
+    heads = [f"{name} ({UNITS.get(name, '1')})" for name in names]
     heads += [f"{name} ± ({UNITS.get(name, '1')})" for name in uncertain]
     scattered = _scattered([point for curve in curves for point in curve.points])
     heads += [f"{name}_{group} ({UNITS.get(name, '1')})" for name in scattered for group in SCATTER]
     lines = [", ".join(heads)]
     for point in (point for curve in curves for point in curve.points):
-        numbers = [repr(float(getattr(point, name))) for name in NUMBERS]
+        numbers = [repr(float(getattr(point, name))) for name in names]
         numbers += [repr(float(point.uncertainty[name])) if name in point.uncertainty else "" for name in uncertain]
         own = [_of_windows(point, group, name) for name in scattered for group in SCATTER]
         numbers += ["" if np.isnan(number) else repr(number) for number in own]

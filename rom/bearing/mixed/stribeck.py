@@ -10,10 +10,12 @@ import numpy as np
 
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
+from roughfilm.rom.bearing.mixed.heated import with_temperature
 from roughfilm.rom.bearing.mixed.search import Search, SeparationSearch, Slopes
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.scene import Bearing
@@ -60,6 +62,9 @@ UNCERTAIN = (
 )
 """Quantities of a point that have an uncertainty."""
 
+TEMPERATURES = ("temperature", "outlet_temperature")
+"""The temperatures of a point of a bearing whose lubricant has one, which have an uncertainty too."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class StribeckPoint:
@@ -81,6 +86,8 @@ class StribeckPoint:
     contact_pressure_max : maximum contact pressure, averaged over the roughness, Pa.
     contact_area : fraction of the nominal area in contact.
     cavitated_fraction : cavitated fraction of the film.
+    temperature : effective temperature of the film by its heat balance, °C; None where the scene has no temperature.
+    outlet_temperature : temperature of the lubricant that leaves, °C; None where the scene has no temperature.
     balance : relative error of the load.
     residual : residual of the film: the largest net flow into a node over the largest flow through a face.
     cpu_s : CPU time, s.
@@ -107,6 +114,8 @@ class StribeckPoint:
     balance: float
     residual: float
     cpu_s: float
+    temperature: float | None = None
+    outlet_temperature: float | None = None
     uncertainty: Mapping[str, float] = field(default_factory=dict)
     scatter: Mapping[str, float] = field(default_factory=dict)
     window_interval: Mapping[str, tuple[float, float]] = field(default_factory=dict)
@@ -157,7 +166,9 @@ def stribeck(
     """Compute Stribeck curves of a bearing at several loads.
 
     Without asperities the film alone carries the load, the contact share is 0, and the curve leaves out the speeds at
-    which no film carries it.
+    which no film carries it. If the lubricant of the scene has a temperature (``thermoviscosity``, ``density`` and
+    ``heat_capacity``), each film has the one at which its heat is balanced, with the friction of the asperities in it
+    (:func:`roughfilm.rom.bearing.thermal.exchange.temperatures`).
 
     Parameters
     ----------
@@ -179,7 +190,7 @@ def stribeck(
         If a film or the load does not converge.
     """
     ordered = _checked(speeds, pressures)
-    search = curve_search(scene, asperities, ordered, pressures, resolution, tolerance)
+    search = with_temperature(curve_search(scene, asperities, ordered, pressures, resolution, tolerance))
     touches = scene.asperities is not None
     done = {(point.pressure, point.speed): point for point in known}
     coarse = search.coarser()
@@ -301,7 +312,7 @@ def stribeck_point(state: MixedState, search: Search, pressure: float) -> Stribe
     """The point of a mixed film under a load over the nominal area, Pa, without its CPU time."""
     separation = state.scene.geometry.thinnest - search.dip
     load = pressure * search.area
-    lowest = state.scene.lubricant.cavitation_pressure
+    lowest, heated = state.scene.lubricant.cavitation_pressure, state.temperatures
     return StribeckPoint(
         pressure=pressure,
         speed=state.scene.motion.speed,
@@ -320,6 +331,8 @@ def stribeck_point(state: MixedState, search: Search, pressure: float) -> Stribe
         balance=abs(state.load / load - 1),
         residual=state.solution.residual,
         cpu_s=0.0,
+        temperature=None if heated is None else heated.effective - ZERO_CELSIUS,
+        outlet_temperature=None if heated is None else heated.outlet - ZERO_CELSIUS,
     )
 
 
@@ -340,10 +353,18 @@ def uncertainties(point: StribeckPoint, other: StribeckPoint, search: Search, sl
 
     At second order the change with half the cells is three times the remaining error. Errors δF and δC of the loads of
     film and asperities at constant separation change the separation under a constant load by δα = -(δF + δC)/(F' + C').
+    Errors of the flow factors change the heat and the flows, and so the temperature T by up to twice their part of its
+    rise, which changes the load of the film by |d ln η/dT| δT.
     """
     asperities, here = search.asperities, np.array([point.separation])
     film, contact = point.film_load, point.contact_load
     relative_factors = asperities.factor_uncertainty(point.separation) + slopes.left_out
+    of_temperature = 0.0
+    if point.temperature is not None:
+        lubricant, at = search.scene.lubricant, point.temperature + ZERO_CELSIUS
+        viscosity, fall = (float(one[0]) for one in lubricant.viscosity_at(np.array([at])))
+        of_temperature = 2 * relative_factors * abs(at - lubricant.liquid.temperature)
+        relative_factors += abs(fall / viscosity) * of_temperature
     film_error, contact_error = (
         relative_factors * abs(film),
         float(asperities.pressure_uncertainty(here)[0]) * abs(contact),
@@ -367,8 +388,10 @@ def uncertainties(point: StribeckPoint, other: StribeckPoint, search: Search, sl
         "pressure_max": abs(point.pressure_max * of_loads / film) if film else 0.0,
         "contact_pressure_max": point.contact_pressure_max * relative,
         "contact_area": point.contact_area * relative,
+        **dict.fromkeys(TEMPERATURES, of_temperature),
     }
-    return {name: abs(getattr(point, name) - getattr(other, name)) + of_factors.get(name, 0.0) for name in UNCERTAIN}
+    names = UNCERTAIN if point.temperature is None else (*UNCERTAIN, *TEMPERATURES)
+    return {name: abs(getattr(point, name) - getattr(other, name)) + of_factors.get(name, 0.0) for name in names}
 
 
 def _lift_off_guess(points: Sequence[StribeckPoint], search: Search) -> float:

@@ -15,7 +15,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.windows.average import WindowAverage, window_average
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
-from roughfilm.rom.bearing.mixed.stribeck import UNCERTAIN, LiftOff, StribeckCurve, StribeckPoint
+from roughfilm.rom.bearing.mixed.stribeck import TEMPERATURES, UNCERTAIN, LiftOff, StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.homogenization.gap_factors import GapFactors
 from roughfilm.rom.ladder.model import silent
@@ -215,6 +215,7 @@ def _mean_point(own: Sequence[StribeckPoint], independent: float) -> StribeckPoi
     """The mean of the points of the windows at one load and speed, with their scatter."""
     numbers = [entry.name for entry in fields(StribeckPoint) if entry.type is float]
     means: dict[str, Any] = {name: float(np.mean([getattr(point, name) for point in own])) for name in numbers}
+    means |= {name: float(np.mean([getattr(point, name) for point in own])) for name in _heated(own)}
     averages = _averages(own, independent)
     uncertainty = {name: one.uncertainty for name, one in averages.items() if one.uncertainty is not None}
     return with_scatter(StribeckPoint(**means, uncertainty=uncertainty), own, independent)
@@ -225,8 +226,13 @@ def _averages(own: Sequence[StribeckPoint], independent: float) -> dict[str, Win
         name: _average(
             [float(getattr(point, name)) for point in own], [point.uncertainty.get(name) for point in own], independent
         )
-        for name in UNCERTAIN
+        for name in (*UNCERTAIN, *_heated(own))
     }
+
+
+def _heated(own: Sequence[StribeckPoint]) -> tuple[str, ...]:
+    """The names of the temperatures of points that have them."""
+    return TEMPERATURES if all(point.temperature is not None for point in own) else ()
 
 
 def _average(values: Sequence[float], uncertainties: Sequence[float | None], independent: float) -> WindowAverage:

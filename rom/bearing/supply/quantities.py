@@ -41,9 +41,9 @@ def supply_values(scene: Bearing, solution: Solution) -> dict[str, tuple[float, 
 
 def supply_warnings(scene: Bearing, solution: Solution) -> list[str]:
     """Warnings about restrictors outside of the range of their laws, if the density is known, and about flows back."""
-    density, viscosity = scene.lubricant.density, scene.lubricant.viscosity
     values, warnings = supply_values(scene, solution), []
-    for number, supply in enumerate(scene.supply, start=1):
+    for number, (supply, lubricant) in enumerate(zip(scene.supply, scene.supplied, strict=True), start=1):
+        density, viscosity = lubricant.density, lubricant.viscosity
         flow = next(value for name, (value, _) in values.items() if name.startswith(f"supply_{number}_flow"))
         if flow < 0:
             warnings.append(f"supply {number} takes {-flow:.3g} {'m^2/s' if scene.wide else 'm^3/s'} from the film")

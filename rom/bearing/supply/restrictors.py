@@ -82,8 +82,8 @@ def inflows(
     found: Sequence[Patch],
     supplies: Sequence[Supply],
     *,
-    viscosity: float,
-    density: float | None,
+    viscosities: Sequence[float],
+    densities: Sequence[float | None],
     cavitation_pressure: float,
 ) -> tuple[Inflow, ...]:
     """The inflows of supplies that lie in rectangles of the film.
@@ -91,11 +91,11 @@ def inflows(
     Parameters
     ----------
     found : the rectangle of each supply.
-    viscosity, density : viscosity, Pa s, and density, kg/m³, of what passes restrictors.
+    viscosities, densities : viscosity, Pa s, and density, kg/m³, of what passes the restrictor of each supply.
     cavitation_pressure : cavitation pressure above ambient, Pa.
     """
     made = []
-    for supply, patch in zip(supplies, found, strict=True):
+    for supply, patch, viscosity, density in zip(supplies, found, viscosities, densities, strict=True):
         above = 0.0 if supply.pressure is None else supply.pressure - cavitation_pressure
         restrictor = restrictor_of(supply, viscosity=viscosity, density=density, pressure=above)
         depth = math.inf if supply.depth is None else supply.depth

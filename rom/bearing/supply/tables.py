@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 
 from roughfilm.contact.foundation.entries import Angle, Coordinate, InUnit, Length, Part, PositiveNumber
+from roughfilm.rom.bearing.thermal.tables import Temperature
 from roughfilm.rom.parts.surroundings import GaugePressure
 
 FlowRate = Annotated[float, InUnit("m^3/s")]
@@ -55,6 +56,7 @@ class Supply(Part):
     capillary : capillary between the supply and the film.
     orifice : orifice between the supply and the film.
     depth : depth below the wall around it, m, for the friction inside; without it there is none.
+    temperature : temperature of what it supplies, K, ahead of its restrictor; by default that of the lubricant.
     """
 
     kind: str
@@ -67,6 +69,7 @@ class Supply(Part):
     capillary: Capillary | None = None
     orifice: Orifice | None = None
     depth: Length | None = None
+    temperature: Temperature | None = None
 
     @model_validator(mode="after")
     def _one_source(self) -> Self:

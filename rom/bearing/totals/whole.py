@@ -20,6 +20,9 @@ ADDED = (
     "supply_flow",
     "contact_load",
     "film_load",
+    "heat_generated",
+    "heat_to_lubricant",
+    "heat_to_surroundings",
 )
 """Quantities of the pieces that add up to those of the whole bearing."""
 

@@ -16,7 +16,7 @@ from roughfilm.contact.foundation.ranges import whole_in_range
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.writing.kinds import JSON, PAGE
 from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
-from roughfilm.rom.bearing.mixed.store import MARK, NUMBERS, UNITS, write_csv
+from roughfilm.rom.bearing.mixed.store import MARK, UNITS, numbers_of, write_csv
 from roughfilm.rom.bearing.mixed.stribeck import (
     MAX_CELLS,
     MIN_CELLS,
@@ -89,6 +89,9 @@ def command(
     ] = None,
     windows: Windows = None,
     resolution: Annotated[int, typer.Option(help="Cells along and across.")] = RESOLUTION,
+    isothermal: Annotated[
+        bool, typer.Option("--isothermal", help="All films at the temperature of the supplied lubricant.")
+    ] = False,
     set_: Overrides = None,
     jobs: Jobs = None,
     as_json: AsJson = False,
@@ -100,6 +103,7 @@ def command(
         scenes = [bearing_of(load_scene(scene, set_ or ()))]
     else:
         scenes = scenes_of(scene, set_ or (), "roughness.surface", cells, rough_bearing)
+    scenes = [one.isothermal() for one in scenes] if isothermal else scenes
     bearing = scenes[0]
     default = SLIDING_SPEEDS if bearing.turning_radius is None else ROTATIONAL_SPEEDS
     sliding, own = speeds_of(speeds or default, bearing.turning_radius), bearing.load_pressure
@@ -152,7 +156,13 @@ def command(
         if cells is not None:
             heads[2:] = ["±, windows", "least μ", "±, windows", *heads[3:], "±, windows"]
         parted = bearing.asperities is None
-        lowest = [(curve, _least_friction(curve)) for curve in curves]
+        hottest = [
+            max((point.temperature for point in curve.points if point.temperature is not None), default=None)
+            for curve in curves
+        ]
+        if None not in hottest:
+            heads.append("hottest film, °C")
+        lowest = [(curve, _least_friction(curve), hot) for curve, hot in zip(curves, hottest, strict=True)]
 
         def scatter(number: str) -> list[str]:
             return [] if cells is None else [number]
@@ -169,8 +179,9 @@ def command(
                     f"{scale.factor * least.speed:.4g}",
                     f"{curve.points[0].friction_coefficient:.3g}",
                     *scatter(scatter_of(curve.points[0], "friction_coefficient")),
+                    *([] if hot is None else [f"{hot:.1f}"]),
                 )
-                for curve, least in lowest
+                for curve, least, hot in lowest
             ],
             title=None if cells is None else f"over {count_in_words(len(cells.paths), cells.independent)}",
         )
@@ -219,6 +230,7 @@ def curve_entries(
             f"speed of the least friction at {name}": {"value": least.speed, "unit": "m/s"},
         }
     points = [point for curve in curves for point in curve.points]
+    names = numbers_of(points)
     never = [curve.pressure for curve in curves if math.isnan(curve.lift_off.speed)]
     warnings = [f"{pressure / 1e6:g} MPa: the walls part at none of the speeds" for pressure in never]
     warnings += [
@@ -236,11 +248,11 @@ def curve_entries(
                     "uncertainty": finite(curve.lift_off.uncertainty),
                     **({} if cells is None else _scatter_entries(curve.lift_off)),
                 },
-                "points": [_point_entries(point, scattered=cells is not None) for point in curve.points],
+                "points": [_point_entries(point, names, scattered=cells is not None) for point in curve.points],
             }
             for curve in curves
         ],
-        "units": {name: UNITS.get(name, "1") for name in NUMBERS},
+        "units": {name: UNITS.get(name, "1") for name in names},
         "quantities": quantities,
         "numerics": {
             "residual": max(point.residual for point in points),
@@ -259,8 +271,8 @@ def curve_entries(
     }
 
 
-def _point_entries(point: StribeckPoint, *, scattered: bool) -> dict[str, Any]:
-    entries: dict[str, Any] = {name: finite(getattr(point, name)) for name in NUMBERS}
+def _point_entries(point: StribeckPoint, names: Sequence[str], *, scattered: bool) -> dict[str, Any]:
+    entries: dict[str, Any] = {name: finite(getattr(point, name)) for name in names}
     entries["uncertainty"] = {name: finite(value) for name, value in point.uncertainty.items()}
     if scattered:
         entries["scatter"] = {name: finite(value) for name, value in point.scatter.items()}

@@ -1,0 +1,39 @@
+"""The film of the isothermal models at the one temperature at which its heat is balanced."""
+
+from dataclasses import replace
+
+from roughfilm.contact.foundation.deferred import deferred
+from roughfilm.rom.bearing.model import SOURCES, bearing_model
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.applies import has_temperature
+from roughfilm.rom.ladder.model import Effect
+
+FILMS = 3.0
+"""CPU time of the search for the temperature over that of the film."""
+
+_MODEL = bearing_model(
+    name="heat_balance",
+    summary="adds heating: one temperature of the film by its heat balance",
+    keeps=frozenset(
+        {
+            Effect.SIDE_FLOW,
+            Effect.CAVITATION,
+            Effect.PRESSURE_DEPENDENCE,
+            Effect.ROUGHNESS,
+            Effect.DEFORMATION,
+            Effect.PLASTICITY,
+            Effect.HEATING,
+        }
+    ),
+    sources=(*SOURCES, "DIN 31652-1", "ISO 7902-1"),
+    applies=has_temperature,
+    in_plane=4e-6,
+)
+
+
+def cost(scene: Bearing, cells: int) -> float:
+    """The expected CPU seconds: those of the film, several times."""
+    return FILMS * _MODEL.cost(scene, cells)
+
+
+MODEL = replace(_MODEL, cost=cost, compute=deferred("rom.bearing.thermal.heat_balance", "solve_heat_balance"))

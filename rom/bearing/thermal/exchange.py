@@ -1,0 +1,261 @@
+"""The heat that a film generates, and the lubricant and surroundings that take it away, for one temperature."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.geometry.journal import Shaft
+from roughfilm.rom.bearing.geometry.ring import Ring
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.tables import Heat
+from roughfilm.rom.cavitation.evaluation.flows import flow_across, flow_along
+from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.lubricants.liquid import Liquid
+
+SMALL_FLOW = 1e-12
+"""New lubricant over all lubricant that enters a film below which it carries no heat."""
+
+INVERSION_STEPS, INVERTED = 60, 1e-13
+"""Largest number of Newton's steps from a heat to its temperature, and relative change at which they end."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Exchange:
+    """The heat of a film and what takes it away; of an infinitely wide film per width.
+
+    Attributes
+    ----------
+    power : mechanical power that becomes heat, W: friction, squeeze, and what the supply pressure pumps.
+    new : flows of lubricant that enters from outside, m³/s, each with its temperature, K.
+    carried : flow of hot lubricant that enters the film again, m³/s.
+    conductance : heat transfer coefficient times area from the bearing to its surroundings, W/K.
+    surroundings : temperature of the surroundings, K.
+    """
+
+    power: float
+    new: tuple[tuple[float, float], ...]
+    carried: float
+    conductance: float
+    surroundings: float
+
+    @property
+    def renewed(self) -> float:
+        """The flow of new lubricant, m³/s."""
+        return sum(flow for flow, _ in self.new)
+
+    @property
+    def flows(self) -> bool:
+        """Whether new lubricant takes heat away."""
+        return self.renewed > SMALL_FLOW * (self.renewed + self.carried)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Temperatures:
+    """The temperatures of a film with one effective temperature.
+
+    Attributes
+    ----------
+    effective : temperature for which the heat is balanced, K: the mean of inlet and outlet.
+    inlet : temperature of the mixture of new and recirculated lubricant at the inlet, K.
+    outlet : temperature of the lubricant that leaves, K.
+    to_lubricant, to_surroundings : heat that the lubricant takes away, and the surroundings, W.
+    """
+
+    effective: float
+    inlet: float
+    outlet: float
+    to_lubricant: float
+    to_surroundings: float
+
+
+def temperatures(exchange: Exchange, liquid: Liquid, film: float) -> Temperatures:
+    """The temperatures that the heat of a film brings about whose lubricant has the viscosity at a temperature T.
+
+    With the heat e(T) = ∫ ρ c dT of a volume, new lubricant Q_k at T_k and the recirculated flow Q_r, which leaves and
+    enters again,
+
+        Σ Q_k (e(T_out) - e(T_k)) = P - α A (T - T_a),    (Σ Q_k + Q_r) e(T_in) = Σ Q_k e(T_k) + Q_r e(T_out),
+
+    and the temperature of the film is (T_in + T_out)/2. Without new lubricant the heat goes to the surroundings alone,
+    and the temperature is T_a + P/(α A); without any heat it is that of the supply. The heat is balanced if the result
+    equals T.
+
+    Parameters
+    ----------
+    exchange : power and flows of the film.
+    liquid : its lubricant over temperature.
+    film : temperature T at which the film was solved, K.
+
+    Raises
+    ------
+    InputError
+        If nothing takes the heat away.
+    ConvergenceError
+        If the heat belongs to no temperature.
+
+    Source: DIN 31652-1 and ISO 7902-1, for the mean of inlet and outlet and the heat transfer to the surroundings.
+    """
+    to_surroundings = exchange.conductance * (film - exchange.surroundings)
+    if not exchange.flows:
+        if exchange.conductance == 0 == exchange.power:
+            cold = liquid.temperature
+            return Temperatures(effective=cold, inlet=cold, outlet=cold, to_lubricant=0.0, to_surroundings=0.0)
+        if exchange.conductance == 0:
+            raise InputError(
+                "heat: no lubricant flows through the film and takes its heat away; give [heat] heat_transfer and "
+                "area, or sides, an inlet or [[supply]] through which lubricant flows"
+            )
+        only = exchange.surroundings + exchange.power / exchange.conductance
+        return Temperatures(effective=only, inlet=only, outlet=only, to_lubricant=0.0, to_surroundings=exchange.power)
+    entering = sum(flow * _heat(liquid, temperature) for flow, temperature in exchange.new)
+    to_lubricant = exchange.power - to_surroundings
+    out = (entering + to_lubricant) / exchange.renewed
+    mixed = (entering + exchange.carried * out) / (exchange.renewed + exchange.carried)
+    outlet, inlet = _temperature(liquid, out), _temperature(liquid, mixed)
+    return Temperatures(
+        effective=(inlet + outlet) / 2,
+        inlet=inlet,
+        outlet=outlet,
+        to_lubricant=to_lubricant,
+        to_surroundings=to_surroundings,
+    )
+
+
+def _heat(liquid: Liquid, temperature: float) -> float:
+    return float(liquid.heat(np.array([temperature]))[0][0])
+
+
+def _temperature(liquid: Liquid, heat: float) -> float:
+    """The temperature, K, at which a volume has a heat above that of the supplied liquid, J/m³."""
+    temperature = liquid.temperature
+    for _ in range(INVERSION_STEPS):
+        content, slope = (float(values[0]) for values in liquid.heat(np.array([temperature])))
+        step = (heat - content) / slope
+        temperature += step
+        if abs(step) <= INVERTED * abs(temperature):
+            return temperature
+    raise ConvergenceError(
+        f"heat: {heat:.4g} J/m^3 belongs to no temperature of the lubricant; check lubricant.heat_capacity"
+    )
+
+
+def exchange_of(
+    scene: Bearing, solution: Solution, quantities: Mapping[str, Quantity], supply_temperature: float
+) -> Exchange:
+    """The heat of a film and the flows that take it away, from its solution.
+
+    The power is that of friction, of walls that approach each other, and of the pressures at which lubricant enters and
+    leaves, Σ p Q. Lubricant that a restrictor throttles enters with the heat that this releases. New lubricant enters
+    through the inlet, open sides and supplies, each where it flows in; what walls displace that approach each other has
+    come in at the supply temperature. Recirculated is, of a ring or a shaft, ``heat.carried_over`` times the
+    flow out at the end, as far as the inlet takes it; of a film without an end the least flow along anywhere, and
+    behind supplies ``heat.carried_over`` of it. Of a single pad nothing recirculates.
+
+    Parameters
+    ----------
+    scene : the bearing at its film.
+    solution : the film.
+    quantities : the quantities of the film.
+    supply_temperature : temperature of the supplied lubricant, K.
+
+    Raises
+    ------
+    InputError
+        If the heat transfer of the scene is incomplete, or that of a bearing whose number of pieces is unknown.
+    """
+    heat, lubricant = scene.heat or Heat(), scene.lubricant
+    wide = solution.problem.shape.wide
+
+    def flow(name: str) -> float:
+        quantity = quantities.get(f"{name}_per_width" if wide else name)
+        return 0.0 if quantity is None else quantity.value
+
+    inlet, outlet = flow("inlet_flow"), flow("outlet_flow")
+    displaced = flow("displaced_flow")
+    low, high = (0.0, 0.0) if wide else (flow("side_leakage_low"), flow("side_leakage_high"))
+    supplied = [flow(f"supply_{number}_flow") for number in range(1, len(scene.supply) + 1)]
+    drawn_low, drawn_high = _drawn_through_sides(solution)
+    new = [(max(drawn_low, -low, 0.0) + max(drawn_high, -high, 0.0), supply_temperature)]
+    new += [
+        (max(amount, 0.0), supply_temperature if supply.temperature is None else supply.temperature)
+        for amount, supply in zip(supplied, scene.supply, strict=True)
+    ]
+    new.append((max(displaced, 0.0), supply_temperature))
+    carried = 0.0
+    if "inlet_flow_per_width" not in quantities:
+        carried = max(float(flow_along(solution).sum(axis=1).min()), 0.0)
+        if scene.supply:
+            drained = (1 - heat.carried_over) * carried
+            weight = sum(amount for amount, _ in new[1:-1])
+            mean = sum(amount * temperature for amount, temperature in new[1:-1]) / weight if weight else None
+            new.append((drained, supply_temperature if mean is None else mean))
+            carried -= drained
+    else:
+        if isinstance(scene.geometry, Ring | Shaft):
+            carried = min(heat.carried_over * max(outlet, 0.0), max(inlet, 0.0))
+        at_inlet = scene.boundary.inlet.temperature
+        new.append((max(inlet, 0.0) - carried, supply_temperature if at_inlet is None else at_inlet))
+        new.append((max(-outlet, 0.0), supply_temperature))
+    sides, at_end = scene.boundary.sides, scene.ends.outlet + lubricant.cavitation_pressure
+    pumped = scene.inlet_pressure * inlet - (scene.inlet_pressure if _gaps(solution) else at_end) * outlet
+    pumped -= sides.low * low + sides.high * high
+    for number, (amount, supply) in enumerate(zip(supplied, scene.supply, strict=True), start=1):
+        pressure = quantities[f"supply_{number}_pressure"].value if supply.pressure is None else supply.pressure
+        pumped += pressure * amount
+    conductance = _conductance(scene, heat)
+    return Exchange(
+        power=quantities["power_loss_per_width" if wide else "power_loss"].value + _squeeze(scene, solution) + pumped,
+        new=tuple((amount, temperature) for amount, temperature in new if amount > 0),
+        carried=carried,
+        conductance=conductance,
+        surroundings=supply_temperature if heat.surroundings is None else heat.surroundings,
+    )
+
+
+def _gaps(solution: Solution) -> bool:
+    return bool(solution.problem.shape.idle)
+
+
+def _drawn_through_sides(solution: Solution) -> tuple[float, float]:
+    """The flows that enter through the sides at the lowest and the highest y, where they enter, m³/s."""
+    if solution.problem.ends.sides is None:
+        return 0.0, 0.0
+    across, shape = flow_across(solution), solution.problem.shape
+    inside = ~shape.is_idle(solution.grid.x) if shape.idle else np.ones(across.shape[0], dtype=bool)
+    if not solution.network.periodic[0]:
+        inside[[0, -1]] = False
+    return float(np.maximum(across[inside, 0], 0.0).sum()), float(np.maximum(-across[inside, -2], 0.0).sum())
+
+
+def _squeeze(scene: Bearing, solution: Solution) -> float:
+    """The power -∫ p ∂h/∂t dA of walls that approach each other, W."""
+    opening, grid = solution.problem.opening, solution.grid
+    if opening is None:
+        return 0.0
+    rate = opening(*np.meshgrid(grid.x, grid.y, indexing="ij"))
+    pressure = solution.state.pressure + scene.lubricant.cavitation_pressure
+    return -float((grid.areas * pressure * rate).sum())
+
+
+def _conductance(scene: Bearing, heat: Heat) -> float:
+    """The heat transfer coefficient times the area of one piece of the bearing, W/K."""
+    if heat.heat_transfer is None and heat.area is None:
+        return 0.0
+    if heat.heat_transfer is None or heat.area is None:
+        missing, given = ("heat_transfer", "area") if heat.heat_transfer is None else ("area", "heat_transfer")
+        raise InputError(f"heat.{missing}: is missing beside heat.{given}; give both, or leave both out")
+    if scene.wide or scene.pieces is None:
+        what = "an infinitely wide bearing" if scene.wide else "pads of an unknown number"
+        remedy = "geometry.width" if scene.wide else "geometry.pads"
+        raise InputError(f"heat.area: got one for {what}; give {remedy}, or leave heat_transfer and area out")
+    return heat.heat_transfer * heat.area / scene.pieces
+
+
+def coldest(scene: Bearing, supply_temperature: float) -> float:
+    """The lowest temperature, K, of what takes the heat of a film away, below which no film cools."""
+    known = [scene.boundary.inlet.temperature, *(one.temperature for one in scene.supply)]
+    known.append(None if scene.heat is None else scene.heat.surroundings)
+    return min([supply_temperature, *(one for one in known if one is not None)])

@@ -1,0 +1,1 @@
+"""Films of a lubricant whose viscosity falls with the shear rate."""

@@ -1,0 +1,89 @@
+"""The viscosities of a film of a lubricant that thins with shear, node by node."""
+
+import math
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.cavitation.fluid import Viscosities
+from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.lubricants.shear_thinning import ThinningCurve
+from roughfilm.rom.shear_thinning.straight_gap import thinned_by_flow
+
+
+def thinned(
+    solution: Solution, curve: ThinningCurve, *, viscosity: Array | None = None, gap: Array | None = None
+) -> Viscosities:
+    """The viscosities by the law of shear thinning at the flows of a film, at its nodes and at the cavitation pressure.
+
+    A film with these viscosities has other flows; the film of the law is the fixed point. With the potential
+    W(γ̇) = ∫ τ dγ̇ the step to the next film is one of Kačanov's method: of all profiles with the flows of a film those
+    of the law have the least ∫ W, and as η falls with the shear rate, the potential of the film with the frozen η(z) is
+    above ∫ W for all other flows and equals it for these. Each step hence lowers the potential of the flows, as long as
+    the ends of the film do not move. It multiplies an error by at most 1 - n, which a flow between two reservoirs
+    attains. (With the pressure gradients of a film in place of its flows an error would grow by 1/n - 1 there.)
+
+    Over averaged roughness the viscosities are those of a smooth film of the mean gap, with the mean pressure gradient.
+    Cavities, without a pressure gradient, are sheared by u/h.
+
+    Parameters
+    ----------
+    solution : a film, with its own viscosities.
+    curve : fluidity over stress.
+    viscosity : viscosity η₀ at rest at the nodes and the cavitation pressure, Pa s, shape (nx, ny), such as that at
+        their temperatures; by default that of the problem.
+    gap : mean gap at the nodes, m, shape (nx, ny); by default the film thickness.
+
+    Returns
+    -------
+    Viscosities
+        Viscosities of shape (nx, ny), which under the pressure law of the problem are those of the law under pressure.
+
+    Raises
+    ------
+    ConvergenceError
+        If the stress across the film does not converge at a node.
+
+    Source: Heid and Wihler 2020, Mathematics of Computation 89, 2707, for Kačanov's method and its convergence.
+    """
+    problem, grid, pressure = solution.problem, solution.grid, solution.state.pressure
+    h = solution.faces.thickness if gap is None else gap
+    own = problem.at_nodes
+    at_rest = np.full(h.shape, problem.viscosity) if viscosity is None else viscosity
+    under_pressure = at_rest / problem.piezoviscosity.fluidity(pressure, at_rest)[0]
+    flow = (problem.viscosity if own is None else own.flow) / problem.fluidity(pressure)[0]
+    speed = problem.speed * (grid.radius if problem.shape.polar else 1.0)
+    along, across = pressure_gradient(solution)
+    carried = 0.0 if own is None else (own.carried - 1) * speed * h / 2
+    driven = carried - h**3 / (12 * flow) * along, -(h**3) / (12 * flow) * across
+    found = thinned_by_flow(curve, under_pressure, h, speed, driven)
+    at_cavitation = at_rest * (found.flow / under_pressure) ** _steepness(problem, pressure)
+    return Viscosities(flow=at_cavitation, shear=found.shear / found.flow * at_cavitation, carried=found.carried)
+
+
+def pressure_gradient(solution: Solution) -> tuple[Array, Array]:
+    """∂p/∂x and ∂p/∂y at the nodes, Pa/m, shape (nx, ny); second-order accurate inside of the film."""
+    grid, pressure = solution.grid, solution.state.pressure
+    along = _slope(pressure, grid.x, grid.spacing_x) / grid.radius
+    across = np.zeros_like(pressure) if grid.y.size == 1 else _slope(pressure.T, grid.y, grid.spacing_y).T
+    return along, across
+
+
+def _slope(values: Array, places: Array, spacing: Array) -> Array:
+    """The derivative of values over their first axis, periodic if the last node has a spacing."""
+    if spacing[-1] == 0:
+        return np.asarray(np.gradient(values, places, axis=0))
+    around = np.concatenate([values[-1:], values, values[:1]])
+    positions = np.concatenate([[places[0] - spacing[-1]], places, [places[-1] + spacing[-1]]])
+    return np.asarray(np.gradient(around, positions, axis=0)[1:-1])
+
+
+def _steepness(problem: Problem, pressure: Array) -> Array:
+    """The derivative d ln η₀/d ln η of the pressure law: η is the viscosity under pressure, η₀ that at cavitation.
+
+    ln η is linear in ln η₀ in every law, so that this number does not depend on η₀.
+    """
+    law, shape = problem.piezoviscosity, pressure.shape
+    first, second = (np.log(law.fluidity(pressure, np.full(shape, one))[0]) for one in (1.0, math.e))
+    return np.asarray(1 / (1 - (second - first)))
