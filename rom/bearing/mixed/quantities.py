@@ -10,9 +10,9 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.equilibrium.expected import expected_film
 from roughfilm.rom.bearing.equilibrium.grids import LOAD_TOLERANCE
 from roughfilm.rom.bearing.film import Searched
+from roughfilm.rom.bearing.flash import FLASH, flash_temperature, flash_warnings
 from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load
 from roughfilm.rom.bearing.mixed.film import MixedFilm, mixed_problem
-from roughfilm.rom.bearing.mixed.flash import FLASH, flash_temperature, flash_warnings
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.quantities import Fields, Outputs, bearing_quantities, load_of, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
@@ -43,7 +43,7 @@ def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
     load, ``contact_pressure_max`` an average over the roughness, ``contact_area`` a fraction of the nominal area, and
     ``least_gap`` the mean gap at the narrowest place. ``flash_temperature``, of scenes with ``asperities.solid_heat``,
     estimates how much hotter the spots in contact are at the largest contact pressure, between
-    ``flash_temperature_low`` and ``flash_temperature_high`` (:func:`roughfilm.rom.bearing.mixed.flash.rise_of_spots`).
+    ``flash_temperature_low`` and ``flash_temperature_high`` (:func:`roughfilm.rom.bearing.flash.rise_of_spots`).
     """
     assert scene.asperities is not None
     contact = _contact(scene, solution)
