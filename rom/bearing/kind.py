@@ -164,7 +164,13 @@ NUMBERS = {
 
 def remarks(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
     """The approach of the walls, the pressure at which the film ruptures, and the part that the quantities hold for."""
-    return (*_approach(entries), *_rupture(entries, quantities), *_of_the_whole(entries, quantities))
+    flash = ("flash_temperature is an estimate: it has no uncertainty, but a range from its low to its high estimate",)
+    return (
+        *_approach(entries),
+        *_rupture(entries, quantities),
+        *_of_the_whole(entries, quantities),
+        *(flash if "flash_temperature" in quantities and quantities["flash_temperature"].value else ()),
+    )
 
 
 def squeezed(entries: Mapping[str, Any]) -> bool:

@@ -1,7 +1,7 @@
 """The quantities of a converged film: load, friction, pressures and flows."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -376,6 +376,8 @@ class Outputs:
     factor_uncertainties : factor_uncertainties(scene, solution, quantities): uncertainty of each quantity, in its unit,
         that comes from flow factors and contact pressures.
     fields : fields(scene, solution): fields in addition to those of every film.
+    warnings : warnings(scene, solution): warnings in addition to those of every film.
+    estimates : quantities that have a range in place of an uncertainty.
     """
 
     quantities: Callable[[Bearing, Solution], dict[str, Quantity]] = bearing_quantities
@@ -383,6 +385,8 @@ class Outputs:
         factor_uncertainties
     )
     fields: Callable[[Bearing, Solution], Fields] = lambda _scene, _solution: {}
+    warnings: Callable[[Bearing, Solution], Sequence[str]] = lambda _scene, _solution: ()
+    estimates: Collection[str] = ()
 
 
 FILM_OUTPUTS = Outputs()

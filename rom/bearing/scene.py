@@ -351,6 +351,11 @@ class Bearing(Scene):
             raise ValueError("asperities.solid: is missing; give the solid of the rough wall")
         if isinstance(self.roughness, StoredTable) and asperities.solid is not None:
             raise ValueError("asperities.solid: got one, but the stored table has its own solids; leave it out")
+        if isinstance(self.roughness, StoredTable) and asperities.solid_heat is not None:
+            raise ValueError(
+                "asperities.solid_heat: got one, but a stored table has no spots in contact, of which the flash "
+                "temperature follows; give the surface as roughness, or leave it out"
+            )
 
     def _can_be_joined(self, pieces: str) -> None:
         boundary, lowest = self.boundary, self.lubricant.cavitation_pressure

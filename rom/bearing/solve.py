@@ -150,10 +150,11 @@ def solve(
         *window_warnings(found.scene, solution),
         *supply_warnings(found.scene, solution),
         *pad_warnings(found.scene, solution),
+        *outputs.warnings(found.scene, solution),
     ]
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)
-    explained = infinite_flows(solution) | frozenset(POSITIONS)
+    explained = infinite_flows(solution) | {*POSITIONS, *outputs.estimates}
     if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value) and name not in explained]:
         warnings.append(f"{', '.join(unknown)}: unknown uncertainty, as the roughness has too few points")
     return Result(

@@ -46,6 +46,26 @@ class RoughBody(Counter):
     hardness: Pressure | None = None
 
 
+class HeatConductor(Part):
+    """How a solid conducts and stores heat.
+
+    Attributes
+    ----------
+    conductivity : thermal conductivity k, W/(m K).
+    density : density ρ, kg/m³.
+    heat_capacity : specific heat capacity c, J/(kg K).
+    """
+
+    conductivity: Annotated[float, InUnit("W/(m*K)")]
+    density: Annotated[float, InUnit("kg/m^3")]
+    heat_capacity: Annotated[float, InUnit("J/(kg*K)")]
+
+    @property
+    def heat_per_volume(self) -> float:
+        """The heat capacity ρ c of a volume, J/(m³ K)."""
+        return self.density * self.heat_capacity
+
+
 def composite_modulus(body: RoughBody, counter: Counter | None) -> float:
     """The composite modulus E*, Pa; the default counter body is rigid."""
     return solid.composite_modulus(body.solid, None if counter is None else counter.solid)

@@ -1,5 +1,6 @@
 """The quantities, uncertainties and fields of a mixed film."""
 
+import math
 from collections.abc import Mapping
 from functools import partial
 
@@ -11,6 +12,7 @@ from roughfilm.rom.bearing.equilibrium.grids import LOAD_TOLERANCE
 from roughfilm.rom.bearing.film import Searched
 from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load
 from roughfilm.rom.bearing.mixed.film import MixedFilm, mixed_problem
+from roughfilm.rom.bearing.mixed.flash import FLASH, flash_temperature, flash_warnings
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.quantities import Fields, Outputs, bearing_quantities, load_of, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
@@ -39,7 +41,9 @@ def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
     ``load`` and ``friction`` are those of film and asperities together; in a journal bearing loads add up as vectors.
     ``contact_load`` is the load of the asperities, ``film_load`` the rest, ``contact_share`` the contact load over the
     load, ``contact_pressure_max`` an average over the roughness, ``contact_area`` a fraction of the nominal area, and
-    ``least_gap`` the mean gap at the narrowest place.
+    ``least_gap`` the mean gap at the narrowest place. ``flash_temperature``, of scenes with ``asperities.solid_heat``,
+    estimates how much hotter the spots in contact are at the largest contact pressure, between
+    ``flash_temperature_low`` and ``flash_temperature_high`` (:func:`roughfilm.rom.bearing.mixed.flash.rise_of_spots`).
     """
     assert scene.asperities is not None
     contact = _contact(scene, solution)
@@ -59,6 +63,9 @@ def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
         values |= {"contact_load": (pressed, "N"), "film_load": (load - pressed, "N")}
     if "friction_coefficient" in quantities:
         values["contact_share"] = (pressed / load, "1")
+    flash = flash_temperature(scene, contact.pressure_max, scene.asperities.friction)
+    if flash is not None:
+        values |= dict(zip(FLASH, ((flash.mean, "K"), (flash.low, "K"), (flash.high, "K")), strict=True))
     return quantities | {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
 
 
@@ -84,7 +91,10 @@ def mixed_uncertainties(scene: Bearing, solution: Solution, quantities: Mapping[
         **dict.fromkeys(("contact_load", "contact_load_per_width", "contact_pressure_max", "contact_area"), of_contact),
         "least_gap": 0.0,
     }
-    return {name: abs(quantity.value) * relative.get(name, of_film) for name, quantity in quantities.items()}
+    return {
+        name: math.inf if name in FLASH else abs(quantity.value) * relative.get(name, of_film)
+        for name, quantity in quantities.items()
+    }
 
 
 def mixed_fields(scene: Bearing, solution: Solution) -> Fields:
@@ -96,7 +106,21 @@ def mixed_fields(scene: Bearing, solution: Solution) -> Fields:
     }
 
 
-MIXED_OUTPUTS = Outputs(quantities=mixed_quantities, factor_uncertainties=mixed_uncertainties, fields=mixed_fields)
+def mixed_warnings(scene: Bearing, solution: Solution) -> list[str]:
+    """Warnings about a flash temperature outside of the range of its estimate."""
+    assert scene.asperities is not None
+    pressure = _contact(scene, solution).pressure_max
+    flash = flash_temperature(scene, pressure, scene.asperities.friction)
+    return [] if flash is None else flash_warnings(scene, pressure, flash)
+
+
+MIXED_OUTPUTS = Outputs(
+    quantities=mixed_quantities,
+    factor_uncertainties=mixed_uncertainties,
+    fields=mixed_fields,
+    warnings=mixed_warnings,
+    estimates=FLASH,
+)
 
 
 def _contact(scene: Bearing, solution: Solution) -> AsperityLoad:
