@@ -10,7 +10,15 @@ from roughfilm.rom.bearing.equilibrium.films import FilmState, ModelFilms
 from roughfilm.rom.bearing.equilibrium.grids import Search
 from roughfilm.rom.bearing.free.solve import PlacedFilm, WithField
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState, mixed_problem
-from roughfilm.rom.bearing.thermal.field.coupling import Coupled, FilmT, Heated, Heating, contraction, coupled
+from roughfilm.rom.bearing.thermal.field.coupling import (
+    FIELD_TOLERANCE,
+    Coupled,
+    FilmT,
+    Heated,
+    Heating,
+    contraction,
+    coupled,
+)
 from roughfilm.rom.bearing.thermal.field.nodal import in_scene, nodal_field, own_logarithms
 from roughfilm.rom.cavitation.fluid import ViscosityField
 from roughfilm.rom.cavitation.solve import Solution, with_viscosities
@@ -91,10 +99,12 @@ class HeatedBearing:
     Attributes
     ----------
     heating : the energy equation of the scene.
+    tolerance : tolerance of the iteration of films and temperatures.
     last : the last film.
     """
 
     heating: Heating[Any]
+    tolerance: float = FIELD_TOLERANCE
     last: LastFilm = field(default_factory=LastFilm)
 
     def film(self, *, tolerance: float, ruptures: bool) -> Callable[[Solution], Solution]:
@@ -149,7 +159,7 @@ class HeatedBearing:
 
     def _coupled(self, first: FilmT, again: Callable[[FilmT, Array], FilmT]) -> tuple[FilmT, HeatedSolution]:
         """The film that agrees with its temperatures, from a first one, and its solution with the temperatures."""
-        found = coupled(first, again, self.heating, near=self.last.heated)
+        found = coupled(first, again, self.heating, near=self.last.heated, tolerance=self.tolerance)
         solution = heated_solution(found.film.solution, found)
         self.last.keep(solution)
         return found.film, solution
