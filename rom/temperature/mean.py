@@ -196,8 +196,6 @@ def mean_temperature(
             outcome=Outcome.STALLED,
             iterations=ITERATIONS,
         )
-    temperature = liquid.temperature_of(heat)
-    viscosity = liquid.viscosity(temperature)[0]
     carried = _carried(solution, flows, gained, heat)
     stored = float((flows.stored * heat).sum())
     generated_all = float(generated.sum())
