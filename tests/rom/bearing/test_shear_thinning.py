@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import roughfilm as rf
+from roughfilm.contact.foundation.units import ZERO_CELSIUS
+from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.lubricants.shear_thinning import CarreauYasuda
 
 LAW = {"law": "carreau_yasuda", "index": 0.5, "critical_stress": "2 kPa"}
@@ -92,3 +94,22 @@ def test_a_pivoted_pad_has_the_film_of_its_place() -> None:
     given = rf.solve(scene(LAW, {**PIVOTED, **place}), model="shear_thinning", resolution=CELLS)
     assert given["load"].value == pytest.approx(300, rel=1e-5)
     assert given["friction"].value == pytest.approx(found["friction"].value, rel=1e-5)
+
+
+def test_the_heat_balance_has_the_film_of_its_temperature() -> None:
+    lubricant = {
+        "viscosity": "0.05 Pa*s",
+        "temperature": "40 degC",
+        "thermoviscosity": {"law": "exponential", "temperature_coefficient": "0.04 1/K"},
+        "density": "870 kg/m^3",
+        "heat_capacity": "2000 J/(kg*K)",
+        "shear_thinning": {"law": "carreau_yasuda", "index": 0.5, "relaxation_time": "25 us"},
+    }
+    cold = scene(None, PAD, lubricant=lubricant)
+    found = rf.solve(cold, model="heat_balance", resolution=CELLS)
+    assert isinstance(cold, Bearing)
+    hot = cold.at_temperature(found["effective_temperature"].value + ZERO_CELSIUS)
+    film = rf.solve(hot, model="shear_thinning", resolution=CELLS)
+    assert found["load"].value == pytest.approx(film["load"].value, rel=1e-6)
+    newtonian = rf.solve(rf.replace(cold, "lubricant.shear_thinning.index", 1), model="heat_balance", resolution=CELLS)
+    assert found["effective_temperature"].value < newtonian["effective_temperature"].value - 3
