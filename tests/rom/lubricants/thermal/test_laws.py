@@ -181,6 +181,7 @@ def test_valid_ranges():
         ("iso_vg", {"grade": 30}, "grade: got 30; it must be one of 2, 3, 5"),
         ("iso_vg", {"grade": 5}, "grade: got 5 with the viscosity index 95, which is not defined below 2"),
         ("iso_vg", {"grade": 32, "viscosity_index": 900}, "viscosity_index: got 900; it must be 0 to 500"),
+        ("tabulated", {"table": [*ROWS[:1], ["40 degC", "28 cSt"]]}, "got '28 cSt', a kinematic viscosity; write mPa"),
         ("tabulated", {"table": ROWS[:1]}, "at least 2 items"),
         ("tabulated", {"table": [ROWS[1], ROWS[0]]}, "table: got 20 °C, 0.07 as point 2"),
         ("tabulated", {"table": "nowhere.csv"}, r"nowhere\.csv.*no such file"),
