@@ -78,13 +78,30 @@ def gather(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, i, j, 
         add(beside[i, j], -1.0, second, heat[i, north], heat[i, south], reach_y[i, j], inflow)
 
 
+@called
+def solve(own, base, by_wall, matrix, flux, temperature, inflow, fresh):  # type: ignore[no-untyped-def]
+    """Solve the equations of a node for what flows in; returns the sum of all changes and a part of the flux."""
+    size, taken, changed = own.size, 0.0, 0.0
+    for m in range(size):
+        fresh[m] = base[m] + by_wall[m] * temperature
+        taken += flux[m] * inflow[m]
+    for n in range(size):
+        each, column = inflow[n], matrix[n]
+        for m in range(size):
+            fresh[m] += column[m] * each
+    for m in range(size):
+        changed += abs(fresh[m] - own[m])
+        own[m] = fresh[m]
+    return changed, taken
+
+
 @compiled
 def sweep(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, inverse, constant, wall, flux, flux_constant, flux_wall, filling, history, entry, outside, into_wall, rows, inflow, fresh):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """Solve the equations of the nodes one by one over the given rows, each row up and down.
 
     Returns the sum of all changes. A half-space takes up the heat of the rows before.
     """
-    _, ny, size = heat.shape
+    _, ny, _ = heat.shape
     changed = 0.0
     for row in range(rows.size):
         i = rows[row]
@@ -99,20 +116,12 @@ def sweep(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, inverse
             for step in range(ny):
                 j = ny - 1 - step if turn else step
                 gather(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, i, j, inflow)
-                own, base, by_wall, matrix = heat[i, j], constant[i, j], wall[i, j], inverse[i, j]
                 temperature = outside[i, j]
                 taken = flux_constant[i, j] + flux_wall[i, j] * temperature
-                for m in range(size):
-                    fresh[m] = base[m] + by_wall[m] * temperature
-                    taken += flux[i, j, m] * inflow[m]
-                for n in range(size):
-                    each = inflow[n]
-                    for m in range(size):
-                        fresh[m] += matrix[n, m] * each
-                for m in range(size):
-                    changed += abs(fresh[m] - own[m])
-                    own[m] = fresh[m]
-                into_wall[i, j] = taken
+                node = heat[i, j], constant[i, j], wall[i, j], inverse[i, j], flux[i, j]
+                part, more = solve(*node, temperature, inflow, fresh)
+                changed += part
+                into_wall[i, j] = taken + more
     return changed
 
 
