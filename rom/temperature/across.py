@@ -48,7 +48,7 @@ ROUND_OFF = 256 * float(np.finfo(float).eps)
 LAST_SWEEPS = 400
 """Largest number of sweeps with the last equations."""
 
-LIMITED_RENEWALS = 6
+LIMITED_RENEWALS = 12
 """Number of renewals, from the first start on, after which the limited factors of the faces stay the same.
 
 They would keep changing by little where the temperature is uneven, so that the iteration would not converge.

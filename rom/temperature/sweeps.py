@@ -14,16 +14,19 @@ def place(i, count, periodic):  # type: ignore[no-untyped-def]
 def limit(flow, behind, own, next_one, after, ahead, back, slack, reach):  # type: ignore[no-untyped-def]
     """Write the factor of the change upstream in the value at a face, for every point.
 
-    By this factor the value lies between those of the two nodes of the face, but for the slack. A positive flow passes
-    the four nodes in their order, and the face between the middle ones.
+    With the ratio r <= 1 of the change downstream, plus the slack, and the change upstream per length, it is half the
+    ratio of lengths times r² (3 - 2 r). The value then lies between those of both nodes of the face, but for the slack.
+    Behind a jump the factor falls to 0 as the iteration goes on; with 2 r it would stay at any value, and the result
+    depend on the start. A positive flow passes the four nodes in their order, and the face between the middle ones.
     """
     for m in range(own.size):
         onward = flow[m] > 0.0
         change = own[m] - behind[m] if onward else next_one[m] - after[m]
         down = next_one[m] - own[m] if onward else own[m] - next_one[m]
-        factor = 0.5 * (ahead if onward else back)
-        allowed = max(down if change > 0.0 else -down, 0.0) + slack
-        reach[m] = allowed / abs(change) if factor * abs(change) > allowed else factor
+        ratio = ahead if onward else back
+        allowed, steep = max(down if change > 0.0 else -down, 0.0) + slack, ratio * abs(change)
+        part = 1.0 if allowed >= steep else allowed / steep
+        reach[m] = 0.5 * ratio * part * part * (3.0 - 2.0 * part)
 
 
 @compiled
