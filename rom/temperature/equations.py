@@ -105,7 +105,6 @@ class Equations:
 
     Attributes
     ----------
-    viscosities : those across the film at the nodes.
     along, beside : flows of the points through the faces towards i + 1 and j + 1.
     entering, leaving : flows of the points from and to the outside.
     stored : what leaves the nodes without an unknown flow, at the temperature of each point, shape (nx, ny).
@@ -117,7 +116,6 @@ class Equations:
     solved : the arrays of :func:`roughfilm.rom.temperature.blocks.blocks` from ``inverse`` on.
     """
 
-    viscosities: Viscosities
     along: Array
     beside: Array
     entering: Array
@@ -149,7 +147,7 @@ def equations(
     arrays of the equations ``before``, except for these factors, are written again, which saves time.
     """
     shape, net, size = near.temperature.shape, solution.network, parts.points.size
-    flow, shear, carried, stored = (np.empty(shape[:2]) for _ in range(4))
+    shear, stored = np.empty(shape[:2]), np.empty(shape[:2])
     viscosity, steepness = (np.ascontiguousarray(values) for values in liquid.viscosity(near.temperature))
     drift, push = np.empty(shape), np.empty(shape)
     if before is None:
@@ -166,7 +164,7 @@ def equations(
     moving = moved.speed, moved.gradient_x, moved.gradient_y
     across = parts.points, parts.weights, parts.integrals
     profiles = drift, push, heating, softening
-    profile(viscosity, steepness, *across, thickness, *moving, *profiles, flow, shear, carried)
+    profile(viscosity, steepness, *across, thickness, *moving, *profiles, shear)
     divide(moved.sliding, moved.pressing, moved.across, drift, push, *nodes.periodic, along, beside)
     exchange(along, beside, net.supplied, drift, push, net.fixed, *nodes.periodic, entering, leaving, stored)
     rising = np.ascontiguousarray((parts.weights[:, None] * parts.integrals / parts.weights).T)
@@ -186,7 +184,6 @@ def equations(
         *(scratch, scratch.reshape(size + 2, -1), right, np.ones((7, size, LANES)), *solved),
     )
     return Equations(
-        viscosities=Viscosities(flow=flow, shear=shear, carried=carried),
         along=along,
         beside=beside,
         entering=entering,
@@ -199,6 +196,14 @@ def equations(
         softening=softening,
         solved=solved,
     )
+
+
+def viscosities_across(parts: Basis, viscosity: Array) -> Viscosities:
+    """The viscosities of a film from those at its points, Pa s, by the exact integrals of polynomials."""
+    fluidity = 1 / viscosity
+    zeroth, first = fluidity @ parts.weights, fluidity @ (parts.weights * parts.points)
+    second = fluidity @ (parts.weights * parts.points**2) - first**2 / zeroth
+    return Viscosities(flow=1 / (12 * second), shear=1 / zeroth, carried=2 * first / zeroth)
 
 
 @dataclass(frozen=True, kw_only=True)
