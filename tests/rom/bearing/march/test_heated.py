@@ -90,7 +90,7 @@ def test_a_given_film_warms_as_its_equation_says():
 def test_a_march_ends_at_the_film_of_heat_balance(heat):
     near = {"eccentricity": [0.34, -0.07]} | ({"temperature": "60 degC"} if heat is SLOW else {})
     options = LOADED | {"heat": heat, "body": {"start": near}}
-    march = marched(**options, end=0.08)
+    march = marched(**options, end=0.12)
     steady = find("bearing", "heat_balance").solve(scene_of(**options), Request(resolution=CELLS[0]))
     rise = steady["effective_temperature"].value - COLD
     assert march["temperature"][-1] - COLD == pytest.approx(rise, rel=2e-3)
