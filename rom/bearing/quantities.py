@@ -65,7 +65,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     pressure = solution.state.pressure + pc
     width = 1.0 if problem.shape.wide else scene.geometry.width or 1.0
     force = grid.areas * pressure if pressed is None else grid.areas * pressure + pressed
-    boundary = 0.0 if pressed is None or scene.asperities is None else scene.asperities.friction * pressed.sum(axis=0)
+    boundary = 0.0 if pressed is None else scene.boundary_friction * pressed.sum(axis=0)
     drag = drag_of_rows(solution)
     rows = drag.rows + boundary
     load, resistance = load_of(scene, scene_positions(solution), force), float(rows.sum() + drag.between.sum())
@@ -376,6 +376,9 @@ class Outputs:
     factor_uncertainties : factor_uncertainties(scene, solution, quantities): uncertainty of each quantity, in its unit,
         that comes from flow factors and contact pressures.
     fields : fields(scene, solution): fields in addition to those of every film.
+    iteration_uncertainties : iteration_uncertainties(solution, quantities): uncertainty of each quantity, in its unit,
+        that an iteration around the film leaves.
+    details : details(solution): further numbers of the solver by name.
     warnings : warnings(scene, solution): warnings in addition to those of every film.
     estimates : quantities that have a range in place of an uncertainty.
     """
@@ -385,6 +388,10 @@ class Outputs:
         factor_uncertainties
     )
     fields: Callable[[Bearing, Solution], Fields] = lambda _scene, _solution: {}
+    iteration_uncertainties: Callable[[Solution, Mapping[str, Quantity]], Mapping[str, float]] = (
+        lambda _solution, _quantities: {}
+    )
+    details: Callable[[Solution], Mapping[str, float]] = lambda _solution: {}
     warnings: Callable[[Bearing, Solution], Sequence[str]] = lambda _scene, _solution: ()
     estimates: Collection[str] = ()
 

@@ -154,10 +154,7 @@ class MixedFilm:
         scene = self.scene_at(film, speed)
         problem = mixed_problem(scene, self.asperities) if self.film is None else self.film(scene)
         cells = (self.cells, self.cells)
-        return self.state(scene, solve(problem, cells, start=start, tolerance=self.residual))
-
-    def state(self, scene: Bearing, solution: Solution) -> MixedState:
-        """The film of a scene with the contact of its asperities."""
+        solution = solve(problem, cells, start=start, tolerance=self.residual)
         contact = asperity_load(solution.problem.shape, solution.grid, self.asperities)
         return mixed_state(scene, solution, contact)
 
@@ -202,7 +199,7 @@ def mixed_problem(scene: Bearing, asperities: Asperities) -> Problem:
 
 def mixed_state(scene: Bearing, solution: Solution, contact: AsperityLoad) -> MixedState:
     """The mixed film with its loads and friction, from the film and the contact of its asperities."""
-    boundary = 0.0 if scene.asperities is None else scene.asperities.friction
+    boundary = scene.boundary_friction
     x = scene_positions(solution)
     film = solution.grid.areas * (solution.state.pressure + scene.lubricant.cavitation_pressure)
     return MixedState(
