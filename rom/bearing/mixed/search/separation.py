@@ -78,7 +78,7 @@ class Search(Protocol):
         ...
 
     def lift_off(self, pressure: float, near: float) -> float:
-        """The lift-off speed, m/s, from a guess, by :func:`roughfilm.rom.bearing.mixed.search.lift_off.lift_off_speed`."""
+        """The lift-off speed, m/s, from a guess, as of :mod:`roughfilm.rom.bearing.mixed.search.lift_off`."""
         ...
 
     def coarser(self) -> Self:
