@@ -157,6 +157,7 @@ def temperature_across(
     sliding_wall: SlidingWall,
     fixed_wall: FixedWall,
     entering: float | Array | None = None,
+    added_power: Array | None = None,
     modes: int = MODES,
     start: TemperatureAcross | None = None,
     tolerance: float = TOLERANCE,
@@ -174,6 +175,8 @@ def temperature_across(
     sliding_wall, fixed_wall : conditions at ζ = 0 and ζ = 1.
     entering : temperature of lubricant that enters from outside, K, a number or of shape (nx, ny); by default that of
         the liquid.
+    added_power : further power that heats the lubricant of each node, such as that of asperities which rub, W, shape
+        (nx, ny); it is distributed across the film as the dissipation.
     modes : number N of Legendre modes across, from 2.
     start : a field on the same grid with the same number of modes from which the iteration starts.
     tolerance : mean change of the temperature over its range, after viscosities are renewed, at which it stops.
@@ -196,6 +199,8 @@ def temperature_across(
         raise InputError(f"start: got a field of shape {start.temperature.shape}; it must be {shape}")
     given = liquid.temperature if entering is None else entering
     parts, moved = basis(modes), carriers(solution)
+    if added_power is not None:
+        moved = replace(moved, power=moved.power + added_power)
     temperature = (
         np.broadcast_to(np.asarray(given, dtype=float)[..., None], shape) if start is None else start.temperature
     )

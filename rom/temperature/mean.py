@@ -103,6 +103,7 @@ def mean_temperature(
     entering: float | Array | None = None,
     exchange: float | Array = 0.0,
     wall: float | Array | None = None,
+    added_power: float | Array = 0.0,
     start: Array | None = None,
 ) -> MeanTemperature:
     """Solve Σ F e(T) = W η(T)/η - U A (T - T_w), the heat balance of every node, for the temperature over a film.
@@ -128,6 +129,7 @@ def mean_temperature(
     entering : temperature of the liquid that enters at a node from outside, K; by default that of the supply.
     exchange : U, coefficient of the heat transfer to both walls together, W/(m² K).
     wall : T_w, temperature of the walls, K; by default that of the supply.
+    added_power : further power that heats the liquid of each node, such as that of asperities which rub, W.
     start : temperature from which to start, K, shape (nx, ny).
 
     Raises
@@ -146,7 +148,7 @@ def mean_temperature(
     at_nodes = solution.problem.at_nodes
     known = solution.problem.viscosity if at_nodes is None else at_nodes.shear
     power = dissipation(solution, flows)
-    fixed_power, relative_power = np.minimum(power, 0.0), np.maximum(power, 0.0) / known
+    fixed_power, relative_power = np.minimum(power, 0.0) + added_power, np.maximum(power, 0.0) / known
     gained = np.maximum(flows.entering, 0.0) * liquid.heat(inlet)[0]
     order, late = _arranged(flows)
 
