@@ -363,4 +363,5 @@ def thinned_across(
     relative = np.ascontiguousarray((mean[..., None] / viscosity).reshape(-1, points.size))
     near = None if start is None else start.reshape(-1, 4)
     _, fluidity, stress = _balanced(curve, (unit * speed).ravel(), moment, None, (points, weights, relative), near)
-    return mean[..., None] / fluidity.reshape(viscosity.shape), stress.reshape(*mean.shape, 4)
+    thinned = viscosity / (fluidity / relative).reshape(viscosity.shape)
+    return thinned, stress.reshape(*mean.shape, 4)
