@@ -34,8 +34,8 @@ ROELANDS_TEMPERATURE = 138.0
 class ExponentialViscosity(AnchoredLaw):
     """The law η = η_s exp(-β (T - T_s)), within about 30 K of T_s. Source: Reynolds 1886.
 
-    The coefficient β of a mineral oil falls with temperature, about 0.04/K at 40 °C and 0.02/K at 80 °C, so that 30 K
-    away from T_s the law differs by some 20 % from the laws below.
+    The coefficient β of a mineral oil falls with temperature, of ISO VG 32 from 0.044/K at 40 °C to 0.027/K at 80 °C:
+    30 K away from T_s the law gives 20 to 30 % less than ASTM D341.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class RoelandsTemperature(AnchoredLaw):
 
     Attributes
     ----------
-    index : index S, about 0.9 to 1.5 for mineral oils.
+    index : index S, about 1.2 to 1.3 for mineral oils.
 
     Examples
     --------
