@@ -32,6 +32,8 @@ TYPICAL_CPU_S = {
         "mixed": 0.4,
         "heat_balance": 0.9,
         "shear_thinning": 1,
+        "adiabatic": 0.4,
+        "across": 1.4,
         "direct": 1.3,
         "film": 0.06,
         "film_slope": 0.06,

@@ -36,6 +36,8 @@ STYLES = {
     "direct": Style(colour="#252525", line="-", marker="P"),
     "mixed": Style(colour="#762a83", line="-", marker="X"),
     "heat_balance": Style(colour="#a6611a", line="--", marker="p"),
+    "adiabatic": Style(colour="#e7298a", line="-", marker="d"),
+    "across": Style(colour="#01665e", line="-", marker="*"),
     "film": Style(colour="#d6604d", line=(0, (5, 1)), marker="<"),
     "film_slope": Style(colour="#9970ab", line=(0, (3, 1, 1, 1)), marker=">"),
     "stokes": Style(colour="#35978f", line=":", marker="h"),
