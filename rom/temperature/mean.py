@@ -13,6 +13,7 @@ from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.dissipation import Flows, dissipation, film_flows
+from roughfilm.rom.temperature.properties import over_heat
 from roughfilm.rom.temperature.transport import arrange, carry, extrapolate, limit, sweep
 
 TOLERANCE = 1e-12
@@ -157,16 +158,20 @@ def mean_temperature(
     if power.any() and not lost.any() and leaving.max() <= CLOSED * largest:
         raise _runaway(solution, np.unravel_index(int(np.argmax(power)), shape))
 
-    temperature = np.array(inlet if start is None else start, dtype=float)
-    heat = liquid.heat(temperature)[0]
+    heat = np.array(liquid.heat(inlet if start is None else start)[0])
+    properties = over_heat(liquid, heat)
     slope_x, slope_y, face_x, face_y = (np.zeros(shape) for _ in range(4))
     coldest, warmest = min(inlet.min(), walls.min()), max(inlet.max(), walls.max())
+    most = liquid.heat(np.array([warmest + MAX_HEATING]))[0][0]
     kept, limited = flows.stored + leaving, True
     error = np.inf
     for iteration in range(ITERATIONS):
-        value, capacity = liquid.heat(temperature)
-        temperature = temperature + (heat - value) / capacity
-        viscosity, thinning = liquid.viscosity(temperature)
+        highest = np.unravel_index(int(np.argmax(heat)), shape)
+        if not np.abs(heat).max() <= most:
+            raise _runaway(solution, highest)
+        if not properties.contains(heat):
+            properties = over_heat(liquid, heat)
+        temperature, warming, viscosity, thinning = properties(heat)
         generated, to_walls = relative_power * viscosity + fixed_power, lost * (temperature - walls)
         if limited:
             spacings = solution.grid.spacing_x, solution.grid.spacing_y
@@ -176,14 +181,11 @@ def mean_temperature(
         carry(flows.along, flows.across, face_x, face_y, balance)
         scale = float((np.abs(gained) + np.abs(generated) + np.abs(to_walls)).sum())
         before, error = error, float(np.abs(balance).sum()) / (scale or 1.0)
-        highest = np.unravel_index(int(np.argmax(temperature)), shape)
-        if not temperature[highest] <= warmest + MAX_HEATING:
-            raise _runaway(solution, highest)
         if error <= TOLERANCE or before / 2 < error <= ROUNDED:
             break
         undershoots = temperature.min() < coldest - UNDERSHOOT * (temperature[highest] - coldest)
         limited = limited and iteration < (2 * LIMITED if undershoots else LIMITED if error > SETTLED else 0)
-        change = (relative_power * thinning - lost) / capacity
+        change = relative_power * thinning - lost * warming
         source = gained + generated - to_walls - change * heat
         linear = (order, flows.along, flows.across, slope_x, slope_y, kept - change)
         _solve(linear, source, late, (heat, face_x, face_y))
@@ -194,8 +196,6 @@ def mean_temperature(
             outcome=Outcome.STALLED,
             iterations=ITERATIONS,
         )
-    temperature = liquid.temperature_of(heat)
-    viscosity = liquid.viscosity(temperature)[0]
     carried = _carried(solution, flows, gained, heat)
     stored = float((flows.stored * heat).sum())
     generated_all = float(generated.sum())

@@ -3,13 +3,14 @@
 import math
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
-from pydantic import model_validator
+from pydantic import BeforeValidator, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, PositiveNumber
+from roughfilm.contact.foundation.units import converted
 from roughfilm.rom.lubricants.thermal.law import (
     LOG_LIMIT,
     AbsoluteLaw,
@@ -22,7 +23,19 @@ from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY
 
 TemperatureCoefficient = Annotated[float, InUnit("K^-1", any_sign=True)]
 Viscosity = Annotated[float, InUnit("Pa*s")]
-Point = tuple[Temperature, Viscosity]
+
+
+def _dynamic(viscosity: Any) -> Any:
+    """The entry of a viscosity; ValueError for a kinematic one, for which no density stands beside it."""
+    try:
+        converted(viscosity if isinstance(viscosity, str) else "", "m^2/s")
+    except ValueError:
+        return viscosity
+    raise ValueError(f"got {viscosity!r:.60}, a kinematic viscosity; write mPa*s, or take the law walther")
+
+
+Point = tuple[Temperature, Annotated[Viscosity, BeforeValidator(_dynamic)]]
+"""A temperature, K, and the viscosity at it, Pa s."""
 
 EXPONENTIAL_SPAN = 30.0
 """Distance from T_s within which the exponential law is valid, K."""
