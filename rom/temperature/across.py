@@ -30,7 +30,7 @@ RENEWALS = 60
 SWEEPS = 6
 """Largest number of sweeps with the same equations before viscosities are renewed."""
 
-FALL = 0.05
+FALL = 0.2
 """Change of a sweep over that of the first one with the same equations, at which the equations are renewed."""
 
 PLACES = 65
@@ -48,7 +48,7 @@ ROUND_OFF = 256 * float(np.finfo(float).eps)
 LAST_SWEEPS = 400
 """Largest number of sweeps with the last equations."""
 
-LIMITED_RENEWALS = 6
+LIMITED_RENEWALS = 12
 """Number of renewals, from the first start on, after which the limited factors of the faces stay the same.
 
 They would keep changing by little where the temperature is uneven, so that the iteration would not converge.
@@ -183,7 +183,8 @@ def temperature_across(
     added_power : further power that heats the lubricant of each node, such as that of asperities which rub, W, shape
         (nx, ny); it is distributed across the film as the dissipation.
     modes : number N of Legendre modes across, from 2.
-    start : a field on the same grid with the same number of modes from which the iteration starts.
+    start : a field with the same numbers of nodes and modes from which the iteration starts; its ``iterate`` is of use
+        on the same grid alone, and is ignored for other numbers of nodes.
     tolerance : mean change of the temperature over its range, after viscosities are renewed, at which it stops.
     renewals : number of renewals of the viscosities after which the iteration stops without meeting the tolerance, for
         a film that changes further; residual and change are those reached.
@@ -250,7 +251,7 @@ def _solved(
     heat = np.array(np.broadcast_to(film.liquid.heat(temperature)[0], temperature.shape))
     response = np.zeros(temperature.shape) if film.turning else None
     done, reach, slope = 0, None, 0.0
-    if before is not None:
+    if before is not None and before.reach[0].shape == temperature.shape:
         done, reach = before.renewals, before.reach if before.renewals >= LIMITED_RENEWALS else None
         if film.turning and before.response is not None:
             response, slope = before.response.copy(), before.slope

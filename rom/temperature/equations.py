@@ -9,7 +9,7 @@ from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.basis import Basis
-from roughfilm.rom.temperature.blocks import LANES, blocks, exchange, upward_flows
+from roughfilm.rom.temperature.blocks import LANES, blocks, exchange, sources, upward_flows
 from roughfilm.rom.temperature.power import Carriers
 from roughfilm.rom.temperature.profiles import divide, profile
 from roughfilm.rom.temperature.sweeps import audit, reaches
@@ -169,13 +169,13 @@ def equations(
     profile(viscosity, steepness, *across, thickness, *moving, *profiles, flow, shear, carried)
     divide(moved.sliding, moved.pressing, moved.across, drift, push, *nodes.periodic, along, beside)
     exchange(along, beside, net.supplied, drift, push, net.fixed, *nodes.periodic, entering, leaving, stored)
-    upward_flows(along, beside, entering, leaving, stored, parts.weights, parts.integrals, *nodes.periodic, upward)
+    rising = np.ascontiguousarray((parts.weights[:, None] * parts.integrals / parts.weights).T)
+    upward_flows(along, beside, entering, leaving, stored, parts.weights, rising, *nodes.periodic, upward)
     if reach is None:
         reach = np.empty(shape), np.empty(shape)
         reaches(heat, along, beside, *nodes.ratios, *nodes.periodic, OVERSHOOT * float(np.ptp(heat)), *reach)
-    heating *= (moved.fluid_power * shear)[..., None]
-    known = 1 - (softening * (near.temperature - near.supply)).sum(axis=2)
-    source = entering * nodes.entering[..., None] + heating * known[..., None]
+    source, power = np.empty(shape), moved.fluid_power * shear
+    sources(entering, nodes.entering, power, near.temperature, near.supply, softening, heating, source)
     sliding, fixed = walls
     scratch, right = np.ones((size + 2, size + 2, LANES)), np.ones((size + 2, LANES))
     blocks(
