@@ -6,7 +6,6 @@ from functools import partial
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
@@ -145,15 +144,10 @@ def walls_of(scene: Bearing, supplied: float) -> tuple[SlidingWall, FixedWall]:
     Parameters
     ----------
     supplied : temperature of the supplied lubricant, K.
-
-    Raises
-    ------
-    InputError
-        If a wall has a thickness without a conductivity.
     """
     heat = scene.heat or Heat()
     fixed = heat.fixed_wall
-    return _sliding_wall(heat.sliding_wall, supplied), _fixed_wall(fixed, supplied, "fixed_wall")
+    return _sliding_wall(heat.sliding_wall, supplied), _fixed_wall(fixed, supplied)
 
 
 def _sliding_wall(
@@ -171,19 +165,18 @@ def _sliding_wall(
                 temperature=supplied if wall.temperature is None else wall.temperature,
             )
         case Adiabatic() | GivenTemperature() | Conducting():
-            return _fixed_wall(wall, supplied, "sliding_wall")
+            return _fixed_wall(wall, supplied)
     raise AssertionError(wall)
 
 
-def _fixed_wall(wall: Adiabatic | GivenTemperature | Conducting, supplied: float, name: str) -> FixedWall:
+def _fixed_wall(wall: Adiabatic | GivenTemperature | Conducting, supplied: float) -> FixedWall:
     match wall:
         case GivenTemperature():
             return WallAtTemperature(temperature=wall.temperature)
         case Conducting():
             layer = 0.0
             if wall.thickness is not None:
-                if wall.conductivity is None:
-                    raise InputError(f"heat.{name}.conductivity: missing beside thickness; give it")
+                assert wall.conductivity is not None
                 layer = wall.thickness / wall.conductivity
             behind = 0.0 if wall.heat_transfer is None else 1 / wall.heat_transfer
             surroundings = supplied if wall.surroundings is None else wall.surroundings
