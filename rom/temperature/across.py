@@ -208,14 +208,13 @@ def temperature_across(
     given = liquid.temperature if entering is None else entering
     parts, moved = basis(modes), carriers(solution)
     if added_power is not None:
-        moved = replace(moved, power=moved.power + added_power)
+        moved = replace(moved, added=added_power)
     temperature = (
         np.broadcast_to(np.asarray(given, dtype=float)[..., None], shape) if start is None else start.temperature
     )
-    warm = float(np.mean(given)) if start is None or start.shaft is None else start.shaft
-    walls = tuple(
-        condition(wall, solution, moved.filling, liquid.temperature, warm) for wall in (sliding_wall, fixed_wall)
-    )
+    shaft = float(np.mean(given)) if start is None or start.shaft is None else start.shaft
+    both = sliding_wall, fixed_wall
+    walls = [condition(wall, solution, moved.filling, liquid.temperature, shaft) for wall in both]
     film = _Film(
         solution=solution,
         liquid=liquid,

@@ -66,7 +66,7 @@ def upward_flows(along, beside, entering, leaving, stored, weights, rising, peri
 
 
 @compiled
-def sources(entering, heat_in, power, temperature, supply, softening, heating, source):  # type: ignore[no-untyped-def]
+def sources(entering, heat_in, power, added, temperature, supply, softening, heating, source):  # type: ignore[no-untyped-def]
     """Multiply the dissipation by the power of each node, and write what enters, all but its change by T - T₀."""
     nx, ny, size = heating.shape
     for i in range(nx):
@@ -75,8 +75,9 @@ def sources(entering, heat_in, power, temperature, supply, softening, heating, s
             for m in range(size):
                 known -= softening[i, j, m] * (temperature[i, j, m] - supply)
             for m in range(size):
+                more = heating[i, j, m] * added[i, j]
                 heating[i, j, m] *= power[i, j]
-                source[i, j, m] = entering[i, j, m] * heat_in[i, j] + heating[i, j, m] * known
+                source[i, j, m] = entering[i, j, m] * heat_in[i, j] + more + heating[i, j, m] * known
 
 
 @inlined

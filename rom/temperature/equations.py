@@ -175,7 +175,7 @@ def equations(
         reach = np.empty(shape), np.empty(shape)
         reaches(heat, along, beside, *nodes.ratios, *nodes.periodic, OVERSHOOT * float(np.ptp(heat)), *reach)
     source, power = np.empty(shape), moved.fluid_power * shear
-    sources(entering, nodes.entering, power, near.temperature, near.supply, softening, heating, source)
+    sources(entering, nodes.entering, power, moved.added, near.temperature, near.supply, softening, heating, source)
     sliding, fixed = walls
     scratch, right = np.ones((size + 2, size + 2, LANES)), np.ones((size + 2, LANES))
     blocks(
