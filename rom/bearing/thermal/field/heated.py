@@ -49,9 +49,10 @@ class HeatedFilm:
     outlet : temperature of the lubricant that leaves the film, K; None if none leaves.
     generated : power that becomes heat.
     to_lubricant : heat that the lubricant takes away.
-    to_fixed_wall, to_sliding_wall : heat into the walls.
     imbalance : error of the heat balance over the heat flows.
+    to_fixed_wall, to_sliding_wall : heat into the walls; None of walls that take no heat.
     shaft : temperature of a turning shaft, K; None of another wall.
+    friction : coefficient of boundary friction; None without asperities.
     walls : temperatures of walls at the nodes, K, shape (nx, ny), by the name of the field.
     start : what the next iteration starts from.
     """
@@ -65,10 +66,11 @@ class HeatedFilm:
     outlet: float | None
     generated: float
     to_lubricant: float
-    to_fixed_wall: float
-    to_sliding_wall: float
     imbalance: float
+    to_fixed_wall: float | None = None
+    to_sliding_wall: float | None = None
     shaft: float | None = None
+    friction: float | None = None
     walls: Mapping[str, Array] = field(default_factory=dict)
     start: object = None
 

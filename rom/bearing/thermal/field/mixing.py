@@ -14,6 +14,7 @@ from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.field.coupling import HOTTEST
+from roughfilm.rom.bearing.thermal.field.heated import Mixture
 from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.cavitation.evaluation.flows import flow_along, node_balances
 from roughfilm.rom.cavitation.solve import Solution
@@ -59,6 +60,11 @@ class Returning:
     leaving: Array
     share: float
     new: float
+
+    @property
+    def first(self) -> Mixture:
+        """The mixture from which an iteration starts."""
+        return Mixture(temperature=self.new, slope=FIRST_SLOPE * self.share)
 
     def mixture(self, liquid: Liquid, temperature: Array) -> float:
         """The temperature of the mixture, K, from those of the nodes, shape (nx, ny)."""
@@ -155,12 +161,8 @@ def replaced(scene: Bearing, solution: Solution, liquid: Liquid) -> Array:
 
 
 def at_mixture(
-    solve: Callable[[float, HeatedT | None], HeatedT],
-    image: Callable[[HeatedT], float],
-    first: float,
-    slope: float,
-    near: HeatedT | None,
-) -> tuple[HeatedT, float, float]:
+    solve: Callable[[float, HeatedT | None], HeatedT], image: Callable[[HeatedT], float], first: Mixture
+) -> tuple[HeatedT, Mixture]:
     """The temperatures of a film whose inlet has the temperature of the mixture that they bring about.
 
     The heat that leaves grows by less than the heat that enters, since warmer lubricant is thinner, so that the mixture
@@ -170,26 +172,26 @@ def at_mixture(
     ----------
     solve : solve(temperature, near), the temperatures of the film, K, for a temperature at the inlet.
     image : image(temperatures), the temperature of their mixture, K.
-    first, slope : temperature at the inlet from which the iteration starts, K, and the change of the mixture with it.
+    first : mixture from which the iteration starts.
 
     Returns
     -------
-    temperatures, inlet, slope
-        The temperatures of the film, that at the inlet, K, and the change of the mixture with it.
+    temperatures, mixture
+        The temperatures of the film and the mixture at its inlet.
 
     Raises
     ------
     ConvergenceError
         If the mixture does not converge.
     """
-    inlet, before = first, None
+    inlet, slope, before, near = first.temperature, first.slope, None, None
     for _ in range(MAX_MIXTURES):
         near = solve(inlet, near)
         rest = image(near) - inlet
         if before is not None and abs(inlet - before[0]) >= LEAST_STEP:
             slope = min(max(1 + (rest - before[1]) / (inlet - before[0]), 0.0), STEEPEST)
         if abs(rest) <= MIXED:
-            return near, inlet, slope
+            return near, Mixture(temperature=inlet, slope=slope)
         if inlet > HOTTEST:
             break
         before, inlet = (inlet, rest), inlet + rest / (1 - slope)
