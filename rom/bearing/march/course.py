@@ -307,6 +307,12 @@ def refuse_unsupported(duty: Duty) -> None:
         )
     if duty.approach and not duty.given_path:
         raise InputError("motion.approach: got one beside a load; give one of the two")
+    start, heat = duty.body.start, scene.heat
+    if start is not None and start.temperature is not None and (heat is None or heat.time_constant is None):
+        raise InputError(
+            "body.start.temperature: got one without heat.time_constant, so that the film has the temperature of its "
+            "balance at once; give the time constant, or leave it out"
+        )
     if duty.approach and scene.geometry.film is None:
         raise InputError("motion.approach: got one without geometry.film; give the film at the first time")
 

@@ -15,8 +15,8 @@ from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
-from roughfilm.rom.bearing.mixed.heated import with_temperature
-from roughfilm.rom.bearing.mixed.search import Search, SeparationSearch, Slopes
+from roughfilm.rom.bearing.mixed.search.heated import with_temperature
+from roughfilm.rom.bearing.mixed.search.separation import Search, SeparationSearch, Slopes
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
@@ -274,7 +274,7 @@ def curve_search(
         film = parted_film(scene, speeds, pressures, resolution, tolerance)
     if not isinstance(scene.geometry, MovingWall):
         return SeparationSearch(film=film)
-    from roughfilm.rom.bearing.mixed.place import PlaceSearch  # only walls that move freely need it
+    from roughfilm.rom.bearing.mixed.search.place import PlaceSearch  # only walls that move freely need it
 
     return PlaceSearch(
         scene=scene,
