@@ -14,16 +14,19 @@ def place(i, count, periodic):  # type: ignore[no-untyped-def]
 def limit(flow, behind, own, next_one, after, ahead, back, slack, reach):  # type: ignore[no-untyped-def]
     """Write the factor of the change upstream in the value at a face, for every point.
 
-    By this factor the value lies between those of the two nodes of the face, but for the slack. A positive flow passes
-    the four nodes in their order, and the face between the middle ones.
+    With the ratio r <= 1 of the change downstream, plus the slack, and the change upstream per length, it is half the
+    ratio of lengths times r² (3 - 2 r). The value then lies between those of both nodes of the face, but for the slack.
+    Behind a jump the factor falls to 0 as the iteration goes on; with 2 r it would stay at any value, and the result
+    depend on the start. A positive flow passes the four nodes in their order, and the face between the middle ones.
     """
     for m in range(own.size):
         onward = flow[m] > 0.0
         change = own[m] - behind[m] if onward else next_one[m] - after[m]
         down = next_one[m] - own[m] if onward else own[m] - next_one[m]
-        factor = 0.5 * (ahead if onward else back)
-        allowed = max(down if change > 0.0 else -down, 0.0) + slack
-        reach[m] = allowed / abs(change) if factor * abs(change) > allowed else factor
+        ratio = ahead if onward else back
+        allowed, steep = max(down if change > 0.0 else -down, 0.0) + slack, ratio * abs(change)
+        part = 1.0 if allowed >= steep else allowed / steep
+        reach[m] = 0.5 * ratio * part * part * (3.0 - 2.0 * part)
 
 
 @compiled
@@ -43,7 +46,7 @@ def reaches(heat, along, beside, ahead_x, back_x, ahead_y, back_y, periodic_x, p
             limit(beside[i, j], heat[i, south], own, heat[i, north], beyond, *factors)
 
 
-@called
+@inlined
 def add(flow, sign, before, nearest, behind, reach, inflow):  # type: ignore[no-untyped-def]
     """Add the heat that enters a node through a face, less what of the heat that leaves depends on the node behind it.
 
@@ -78,13 +81,30 @@ def gather(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, i, j, 
         add(beside[i, j], -1.0, second, heat[i, north], heat[i, south], reach_y[i, j], inflow)
 
 
+@called
+def solve(own, base, by_wall, matrix, flux, temperature, inflow, fresh):  # type: ignore[no-untyped-def]
+    """Solve the equations of a node for what flows in; returns the sum of all changes and a part of the flux."""
+    size, taken, changed = own.size, 0.0, 0.0
+    for m in range(size):
+        fresh[m] = base[m] + by_wall[m] * temperature
+        taken += flux[m] * inflow[m]
+    for n in range(size):
+        each, column = inflow[n], matrix[n]
+        for m in range(size):
+            fresh[m] += column[m] * each
+    for m in range(size):
+        changed += abs(fresh[m] - own[m])
+        own[m] = fresh[m]
+    return changed, taken
+
+
 @compiled
 def sweep(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, inverse, constant, wall, flux, flux_constant, flux_wall, filling, history, entry, outside, into_wall, rows, inflow, fresh):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """Solve the equations of the nodes one by one over the given rows, each row up and down.
 
     Returns the sum of all changes. A half-space takes up the heat of the rows before.
     """
-    _, ny, size = heat.shape
+    _, ny, _ = heat.shape
     changed = 0.0
     for row in range(rows.size):
         i = rows[row]
@@ -99,28 +119,20 @@ def sweep(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, inverse
             for step in range(ny):
                 j = ny - 1 - step if turn else step
                 gather(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, i, j, inflow)
-                own, base, by_wall, matrix = heat[i, j], constant[i, j], wall[i, j], inverse[i, j]
                 temperature = outside[i, j]
                 taken = flux_constant[i, j] + flux_wall[i, j] * temperature
-                for m in range(size):
-                    fresh[m] = base[m] + by_wall[m] * temperature
-                    taken += flux[i, j, m] * inflow[m]
-                for n in range(size):
-                    each = inflow[n]
-                    for m in range(size):
-                        fresh[m] += matrix[n, m] * each
-                for m in range(size):
-                    changed += abs(fresh[m] - own[m])
-                    own[m] = fresh[m]
-                into_wall[i, j] = taken
+                node = heat[i, j], constant[i, j], wall[i, j], inverse[i, j], flux[i, j]
+                part, more = solve(*node, temperature, inflow, fresh)
+                changed += part
+                into_wall[i, j] = taken + more
     return changed
 
 
 @compiled
-def audit(heat, temperature, along, beside, leaving, stored, upward, source, conduction, area, holds_0, resistance_0, outside_0, holds_1, resistance_1, outside_1, points, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, inflow, into_0, into_1, rest):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+def audit(heat, temperature, along, beside, leaving, stored, upward, source, heating, softening, conduction, area, holds_0, resistance_0, outside_0, holds_1, resistance_1, outside_1, points, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, inflow, into_0, into_1, rest):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """Write the fluxes into both walls and the residuals of the equations of every node, W, of the given heat.
 
-    ``source`` is what enters and the dissipation. A wall at a given temperature takes the flux that balances the node.
+    What enters from outside is as in ``blocks``. A wall at a given temperature takes the flux that balances the node.
     """
     nx, ny, size = heat.shape
     for i in range(nx):
@@ -129,11 +141,13 @@ def audit(heat, temperature, along, beside, leaving, stored, upward, source, con
             below = j - 1 if j > 0 else (ny - 1 if periodic_y else -1)
             gather(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, i, j, inflow)
             own, t = heat[i, j], temperature[i, j]
-            total, high, low_end, high_end = 0.0, 0.0, 0.0, 0.0
+            total, high, low_end, high_end, softer = 0.0, 0.0, 0.0, 0.0, 0.0
+            for m in range(size):
+                softer += softening[i, j, m] * t[m]
             for m in range(size):
                 out = leaving[i, j, m] - weights[m] * stored[i, j]
                 out += outflow(along, beside, reach_x, reach_y, before, below, i, j, m)
-                lacks = inflow[m] + source[i, j, m] - out * own[m]
+                lacks = inflow[m] + source[i, j, m] + heating[i, j, m] * softer - out * own[m]
                 for n in range(size):
                     lacks += slopes[n, m] * upward[i, j, n] * own[n] - conduction[i, j] * stiffness[m, n] * t[n]
                 rest[i, j, m] = lacks
@@ -154,3 +168,31 @@ def audit(heat, temperature, along, beside, leaving, stored, upward, source, con
             into_0[i, j], into_1[i, j] = first, second
             for m in range(size):
                 rest[i, j, m] -= area[i, j] * (ends[0, m] * first + ends[1, m] * second)
+
+
+@compiled
+def summarise(temperature, heat, along, leaving, stored, weights, ends, periodic_x, mean, carried, peaks, low, high):  # type: ignore[no-untyped-def]  # fmt: skip
+    """Write means across the film, the largest temperature at the points and the temperatures of the walls.
+
+    Returns the heat that leaves and the heat that is stored, W.
+    """
+    nx, ny, size = temperature.shape
+    out, kept = 0.0, 0.0
+    for i in range(nx):
+        before = i - 1 if i > 0 else (nx - 1 if periodic_x else 0)
+        for j in range(ny):
+            amount, moved, own = 0.0, 0.0, 0.0
+            mean[i, j], low[i, j], high[i, j], peaks[i, j] = 0.0, 0.0, 0.0, temperature[i, j, 0]
+            for m in range(size):
+                t, flow = temperature[i, j, m], abs(along[i, j, m]) + abs(along[before, j, m])
+                mean[i, j] += weights[m] * t
+                low[i, j] += ends[0, m] * t
+                high[i, j] += ends[1, m] * t
+                peaks[i, j] = max(peaks[i, j], t)
+                amount += flow
+                moved += flow * t
+                out += leaving[i, j, m] * heat[i, j, m]
+                own += weights[m] * heat[i, j, m]
+            carried[i, j] = moved / amount if amount > 0.0 else mean[i, j]
+            kept -= stored[i, j] * own
+    return out, kept

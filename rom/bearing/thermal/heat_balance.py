@@ -10,6 +10,7 @@ from roughfilm.contact.foundation.timing import working_time
 from roughfilm.contact.foundation.units import ZERO_CELSIUS, Quantity
 from roughfilm.rom.bearing.quantities import Outputs
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.shear_thinning import thinning
 from roughfilm.rom.bearing.solve import solve
 from roughfilm.rom.bearing.thermal.balanced import balanced
 from roughfilm.rom.bearing.thermal.exchange import Exchange, Temperatures, coldest, exchange_of, temperatures
@@ -80,9 +81,7 @@ class Heated:
     @property
     def outputs(self) -> Outputs:
         """The functions that evaluate the film."""
-        return Outputs(
-            quantities=self.quantities, factor_uncertainties=self.factor_uncertainties, fields=self.base.fields
-        )
+        return replace(self.base, quantities=self.quantities, factor_uncertainties=self.factor_uncertainties)
 
     def quantities(self, scene: Bearing, solution: Solution) -> dict[str, Quantity]:
         """The quantities of the isothermal model, its temperatures and heat flows."""
@@ -169,16 +168,17 @@ def solve_heat_balance(solver: Model[Bearing], scene: Bearing, request: CheckedR
     liquid, sizes = scene.lubricant.liquid, _sizes(solver, scene, request.resolution)
 
     def film(temperature: float, cells: int, sensitivity: Sensitivity = Sensitivity()) -> Result:
-        model = isothermal_model(scene)
+        model, heated_scene = isothermal_model(scene), scene.at_temperature(temperature)
         heated = Heated(base=model.outputs, liquid=liquid, temperature=temperature, sensitivity=sensitivity)
         return solve(
             solver,
-            scene.at_temperature(temperature),
+            heated_scene,
             replace(request, resolution=cells),
             partial(_within, progress, cells / request.resolution),
             film=model.film,
             ruptures=True,
             outputs=heated.outputs,
+            heat=thinning(heated_scene),
             **model.more,
         )
 

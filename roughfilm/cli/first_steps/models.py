@@ -33,6 +33,7 @@ TYPICAL_CPU_S = {
         "heat_balance": 0.9,
         "adiabatic": 0.4,
         "across": 1.4,
+        "shear_thinning": 1.3,
         "direct": 1.3,
         "film": 0.06,
         "film_slope": 0.06,

@@ -7,7 +7,7 @@ import numpy as np
 
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
-from roughfilm.rom.bearing.thermal.field.mixing import at_mixture, new_lubricant, returning, temperature_of
+from roughfilm.rom.bearing.thermal.field.mixing import MIXED, at_mixture, new_lubricant, returning, temperature_of
 from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.bearing.thermal.tables import Adiabatic, Conducting, GivenTemperature, HalfSpace, Heat, Turning
@@ -24,6 +24,12 @@ from roughfilm.rom.temperature.walls import (
     TurningWall,
     WallAtTemperature,
 )
+
+TOLERANCE = 1e-5
+"""Mean change of the temperature over its range at which its iteration stops, as small as that of film and temperature.
+
+On a grid that is finer than that of the film before, the viscosities are renewed once, as the film changes anyway.
+"""
 
 
 @dataclass(frozen=True)
@@ -51,6 +57,7 @@ class BetweenWalls:
         new = new_lubricant(scene, solution, liquid.temperature)
         back, rubs = returning(scene, solution, new), rubbing(scene, solution, near)
         sliding, fixed = walls_of(scene, liquid.temperature)
+        refined = near is not None and near.temperature.shape != solution.grid.shape
 
         def temperatures(inlet: float | None, known: TemperatureAcross | None) -> TemperatureAcross:
             return temperature_across(
@@ -61,6 +68,8 @@ class BetweenWalls:
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
                 added_power=None if rubs is None else rubs.power,
                 start=_start(near, solution) if known is None else known,
+                tolerance=TOLERANCE,
+                renewals=1 if refined else None,
             )
 
         if back is None:
@@ -70,6 +79,7 @@ class BetweenWalls:
                 temperatures,
                 lambda one: back.mixture(liquid, one.carried),
                 back.first if near is None or near.inlet is None else near.inlet,
+                solution.state.pressure.size,
             )
         balance, leaving = found.balance, float(np.maximum(-node_balances(solution), 0.0).sum())
         heat = scene.heat or Heat()
@@ -95,6 +105,7 @@ class BetweenWalls:
                 "fixed_wall_temperature": found.fixed_wall.temperature,
             },
             start=found,
+            settled=not refined and (mixture is None or abs(mixture.error) <= MIXED),
         )
 
 
