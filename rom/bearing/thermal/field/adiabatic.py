@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm, hottest, start_of
-from roughfilm.rom.bearing.thermal.field.mixing import at_mixture, new_lubricant, replaced, returning
+from roughfilm.rom.bearing.thermal.field.mixing import MIXED, at_mixture, new_lubricant, replaced, returning
 from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.cavitation.fluid import Viscosities
@@ -61,6 +61,7 @@ class AdiabaticWalls:
                 temperatures,
                 lambda one: back.mixture(liquid, one.temperature),
                 back.first if near is None or near.inlet is None else near.inlet,
+                solution.state.pressure.size,
             )
         viscosities, stress = with_thinning(scene, solution, found, near)
         generated = float(found.dissipation.sum())
@@ -77,6 +78,7 @@ class AdiabaticWalls:
             imbalance=found.imbalance,
             friction=None if rubs is None else rubs.friction,
             start=stress,
+            settled=mixture is None or abs(mixture.error) <= MIXED,
         )
 
 
