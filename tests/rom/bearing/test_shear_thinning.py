@@ -1,5 +1,6 @@
 """Bearings whose lubricant thins with shear: against films of constant viscosity, a power law, and a given film."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -59,6 +60,20 @@ def test_models_of_newtonian_lubricants_say_what_they_leave_out() -> None:
         model = find(of_kind(ladder(rom, kind="bearing"), "bearing"), "bearing", name)
         assert "leaves out lubricant.shear_thinning" in model.applies(scene(LAW, PAD)).reason
         assert "shear_thinning" not in model.applies(scene(None, PAD)).reason
+
+
+@pytest.mark.parametrize(
+    "calculate",
+    [
+        lambda one: rf.march(one),
+        lambda one: rf.dynamics(one, speeds=[4.0], loads=[1e6]),
+        lambda one: rf.stribeck(one, [1.0, 4.0], [1e6]),
+    ],
+    ids=["march", "dynamics", "stribeck"],
+)
+def test_calculations_of_newtonian_lubricants_refuse_others(calculate: Callable[[rf.Scene], object]) -> None:
+    with pytest.raises(rf.InputError, match=r"lubricant.shear_thinning: got 'carreau_yasuda'; .* takes Newtonian"):
+        calculate(scene(LAW, PIVOTED, load={"force": "300 N"}))
 
 
 def test_an_infinite_shear_viscosity_above_that_at_rest_is_refused() -> None:

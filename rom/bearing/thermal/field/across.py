@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
-from roughfilm.rom.bearing.thermal.field.mixing import at_mixture, new_lubricant, returning, temperature_of
+from roughfilm.rom.bearing.thermal.field.mixing import MIXED, at_mixture, new_lubricant, returning, temperature_of
 from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.bearing.thermal.tables import Adiabatic, Conducting, GivenTemperature, HalfSpace, Heat, Turning
@@ -29,6 +29,12 @@ from roughfilm.rom.temperature.walls import (
     TurningWall,
     WallAtTemperature,
 )
+
+TOLERANCE = 1e-5
+"""Mean change of the temperature over its range at which its iteration stops, as small as that of film and temperature.
+
+On a grid that is finer than that of the film before, the viscosities are renewed once, as the film changes anyway.
+"""
 
 
 @dataclass(frozen=True)
@@ -57,6 +63,7 @@ class BetweenWalls:
         back, rubs = returning(scene, solution, new), rubbing(scene, solution, near)
         sliding, fixed = walls_of(scene, liquid.temperature)
         sheared = sheared_liquid(scene, solution)
+        refined = near is not None and near.temperature.shape != solution.grid.shape
 
         def temperatures(inlet: float | None, known: TemperatureAcross | None) -> TemperatureAcross:
             return temperature_across(
@@ -67,6 +74,8 @@ class BetweenWalls:
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
                 added_power=None if rubs is None else rubs.power,
                 start=_start(near, solution) if known is None else known,
+                tolerance=TOLERANCE,
+                renewals=1 if refined else None,
             )
 
         if back is None:
@@ -76,6 +85,7 @@ class BetweenWalls:
                 temperatures,
                 lambda one: back.mixture(liquid, one.carried),
                 back.first if near is None or near.inlet is None else near.inlet,
+                solution.state.pressure.size,
             )
         balance, leaving = found.balance, float(np.maximum(-node_balances(solution), 0.0).sum())
         heat = scene.heat or Heat()
@@ -101,6 +111,7 @@ class BetweenWalls:
                 "fixed_wall_temperature": found.fixed_wall.temperature,
             },
             start=found,
+            settled=not refined and (mixture is None or abs(mixture.error) <= MIXED),
         )
 
 
