@@ -31,6 +31,9 @@ MAX_FILMS = 60
 REMEMBERED = 3
 """Number of earlier iterations from which the next viscosities are extrapolated."""
 
+SAMPLES = 64
+"""Number of nodes along each direction at least that count in the least squares of Anderson's method."""
+
 SINGULAR = 1e-12
 """Smallest eigenvalue over the largest one of the normal equations of Anderson's method."""
 
@@ -190,13 +193,14 @@ class Memory:
         rest = image - point
         if len(self.points) == 1:
             return image
-        earlier = list(zip(self.points[:-1], self.images[:-1], strict=True))
-        differences = np.stack([rest - (other - one) for one, other in earlier])
-        weighted = differences * weights
+        some = tuple(slice(None, None, max(1, count // SAMPLES)) for count in weights.shape)
+        rests = [(other - one)[:, *some] for one, other in zip(self.points, self.images, strict=True)]
+        differences = np.stack([rests[-1] - one for one in rests[:-1]])
+        weighted = differences * weights[some]
         normal = np.tensordot(weighted, differences, axes=((1, 2, 3), (1, 2, 3)))
-        wanted = np.tensordot(weighted, rest, axes=((1, 2, 3), (0, 1, 2)))
+        wanted = np.tensordot(weighted, rests[-1], axes=((1, 2, 3), (0, 1, 2)))
         shares = np.linalg.lstsq(normal, wanted, rcond=SINGULAR)[0]
-        correction = np.tensordot(shares, np.stack([image - other for _, other in earlier]), axes=1)
+        correction = sum(share * (image - other) for share, other in zip(shares, self.images[:-1], strict=True))
         return image if _size(correction) > _size(rest) else np.asarray(image - correction)
 
 
