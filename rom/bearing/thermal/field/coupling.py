@@ -22,6 +22,9 @@ LARGEST_OVER_MEAN = 50.0
 Slopes of the temperature are limited at extrema and fronts, where a node may vary by up to 1e-3 between iterations.
 """
 
+ACCEPTED, STALLED_FILMS, FALL = 1e-3, 6, 0.5
+"""Difference that is accepted, and stated, if in so many films it has not fallen to this part of the least before."""
+
 MAX_FILMS = 60
 """Largest number of films in one iteration; three to eight are usual."""
 
@@ -136,7 +139,8 @@ def coupled(
         hottest.append(float(heated.temperature.max()))
         if not hottest[-1] <= HOTTEST:
             raise ConvergenceError(_runaway(hottest), outcome=Outcome.DIVERGED, iterations=len(changes))
-        if changes[-1] <= tolerance and largest <= LARGEST_OVER_MEAN * tolerance:
+        small = changes[-1] <= tolerance and largest <= LARGEST_OVER_MEAN * tolerance
+        if small or _stalls(changes):
             if heated.settled:
                 return Coupled(film=film, heated=heated, changes=tuple(changes), largest=largest)
         else:
@@ -148,6 +152,13 @@ def coupled(
         outcome=Outcome.STALLED,
         iterations=MAX_FILMS,
     )
+
+
+def _stalls(changes: Sequence[float]) -> bool:
+    """Whether differences are small and no longer fall, as where slopes of the temperature are limited."""
+    if len(changes) <= STALLED_FILMS or changes[-1] > ACCEPTED:
+        return False
+    return min(changes[-STALLED_FILMS:]) > FALL * min(changes[:-STALLED_FILMS])
 
 
 def contraction(changes: Sequence[float]) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 from roughfilm.contact.foundation.units import ZERO_CELSIUS, Quantity
 from roughfilm.rom.bearing.quantities import Fields, Outputs, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.field.coupling import Heating
+from roughfilm.rom.bearing.thermal.field.coupling import FIELD_TOLERANCE, Heating
 from roughfilm.rom.bearing.thermal.field.films import HeatedSolution
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.field.residual import iteration
@@ -101,10 +101,16 @@ class HeatedOutputs:
         }
 
     def warnings(self, scene: Bearing, solution: Solution) -> list[str]:
-        """Warnings about temperatures outside of the range of the law of the viscosity."""
+        """Warnings about temperatures outside of the range of the law of the viscosity, and about their iteration."""
+        changes = solution.changes if isinstance(solution, HeatedSolution) else (0.0,)
+        apart = [
+            f"temperature: the viscosity of the film and that at its temperatures still differ by {changes[-1]:.1e} "
+            f"after {len(changes)} films, above the tolerance of {FIELD_TOLERANCE:.0e}; take more cells"
+        ]
         temperature = self.heated(solution).temperature
         beyond = scene.lubricant.temperature_warnings(float(temperature.min()), float(temperature.max()))
-        return [*self.base.warnings(scene, solution), *beyond]
+        unsettled = apart if changes[-1] > FIELD_TOLERANCE else []
+        return [*self.base.warnings(scene, solution), *beyond, *unsettled]
 
 
 def _quantities(solution: Solution, found: HeatedFilm) -> dict[str, Quantity]:
