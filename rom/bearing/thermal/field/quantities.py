@@ -11,7 +11,7 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.field.coupling import FIELD_TOLERANCE, Heating
 from roughfilm.rom.bearing.thermal.field.films import HeatedSolution
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
-from roughfilm.rom.bearing.thermal.field.residual import residual_of
+from roughfilm.rom.bearing.thermal.field.residual import iteration
 from roughfilm.rom.bearing.thermal.field.rubbing import with_friction
 from roughfilm.rom.cavitation.solve import Solution
 
@@ -172,18 +172,13 @@ def _thinning(solution: HeatedSolution) -> float:
 def details(solution: Solution) -> dict[str, float]:
     """The numbers of the iteration of film and temperatures, for the numerics of a result.
 
-    ``viscosity_change`` is the root mean square of the difference of ln η between that of the film and that at its
-    temperatures, ``largest_viscosity_change`` the largest one at a node, ``coupled_residual`` the residual of the film
-    with the latter viscosity, ``energy_imbalance`` the error of the heat balance, ``contraction`` the mean ratio of
-    successive differences, and ``heated_films`` the number of films on the grid.
+    They are those of :func:`roughfilm.rom.bearing.thermal.field.residual.iteration`, ``energy_imbalance``, the error of
+    the heat balance, and ``heated_films``, the number of films on the grid.
     """
     if not isinstance(solution, HeatedSolution):
         return {}
     return {
-        "viscosity_change": solution.changes[-1],
-        "largest_viscosity_change": solution.largest,
-        "coupled_residual": residual_of(solution, solution.heated.viscosities),
+        **iteration(solution),
         "energy_imbalance": solution.heated.imbalance,
-        "contraction": solution.contraction,
         "heated_films": float(len(solution.changes)),
     }
