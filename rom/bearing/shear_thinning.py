@@ -8,7 +8,8 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.quantities import Fields
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.solve import solve
-from roughfilm.rom.bearing.thermal.field.films import HeatedBearing
+from roughfilm.rom.bearing.thermal.field.films import HeatedBearing, HeatedSolution
+from roughfilm.rom.bearing.thermal.field.residual import iteration
 from roughfilm.rom.bearing.thermal.isothermal import isothermal_model
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.grid import Grid
@@ -109,10 +110,21 @@ def solve_thinned(solver: Model[Bearing], scene: Bearing, request: CheckedReques
         progress,
         film=base.film,
         ruptures=True,
-        outputs=replace(base.outputs, fields=fields),
+        outputs=replace(base.outputs, fields=fields, details=details),
         heat=thinning(scene),
         **base.more,
     )
+
+
+def details(solution: Solution) -> dict[str, float]:
+    """The numbers of the iteration of film and viscosities, for the numerics of a result.
+
+    They are those of :func:`roughfilm.rom.bearing.thermal.field.residual.iteration`, and ``thinned_films``, the number
+    of films on the grid.
+    """
+    if not isinstance(solution, HeatedSolution):
+        return {}
+    return {**iteration(solution), "thinned_films": float(len(solution.changes))}
 
 
 def viscosity_field(solution: Solution) -> Array:

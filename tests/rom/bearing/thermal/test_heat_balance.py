@@ -246,6 +246,14 @@ def test_thermal_runaway_is_one_line():
         solved(WEDGE, oil=oil)
 
 
+def test_a_temperature_outside_of_the_range_of_its_law_has_a_warning():
+    """The range of the law is that about the supply temperature, also for a film that is hot."""
+    hot = solved(WEDGE | {"film": "5 um", "rise": "5 um"}, speed="20 m/s")
+    assert hot["effective_temperature"].value > COLD + 30
+    assert [one for one in hot.warnings if one.startswith("temperature: ") and "from 10 °C to 70 °C" in one]
+    assert not [one for one in solved(WEDGE).warnings if one.startswith("temperature: ")]
+
+
 def test_heat_that_nothing_takes_away_is_refused():
     still = {"sides": {"low": "0.1 MPa", "high": "0.1 MPa"}}
     with pytest.raises(InputError, match=r"^heat: no lubricant flows .* heat_transfer and area[^\n]*$"):
