@@ -296,6 +296,7 @@ def wall_names(scene: Bearing) -> tuple[str, ...]:
 def refuse_unsupported(duty: Duty) -> None:
     """Raise InputError, in one line, for a scene that has no march."""
     scene = duty.scene
+    scene.check_newtonian("a march")
     if scene.boundary.inlet.ram_factor and "speed" in duty.curves:
         raise InputError("boundary.inlet.ram_factor: got one with a speed over time; give the pressure of the inlet")
     geometry, ends = scene.geometry, scene.ends

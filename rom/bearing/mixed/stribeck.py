@@ -184,11 +184,12 @@ def stribeck(
     Raises
     ------
     InputError
-        If the asperities cannot carry a load, if the pressures at the sides alone carry more than a load, or if no
-        speed of a bearing without asperities carries a load.
+        If the asperities cannot carry a load, if the pressures at the sides alone carry more than a load, if no speed
+        of a bearing without asperities carries a load, or if the lubricant thins with shear.
     ConvergenceError
         If a film or the load does not converge.
     """
+    scene.check_newtonian("a Stribeck curve")
     ordered = _checked(speeds, pressures)
     search = with_temperature(curve_search(scene, asperities, ordered, pressures, resolution, tolerance))
     touches = scene.asperities is not None

@@ -69,6 +69,7 @@ def test_the_lattice():
         ("homogenized", "direct"): Effect.FINITE_WAVES,
         ("mixed", "shear_thinning"): Effect.SHEAR_THINNING,
         ("shear_thinning", "heat_balance"): Effect.HEATING,
+        ("heat_balance", "adiabatic"): Effect.TEMPERATURE_FIELD,
         ("adiabatic", "across"): Effect.TEMPERATURE_ACROSS,
     }
     assert best(MODELS).name == "across"
