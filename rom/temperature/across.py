@@ -1,5 +1,6 @@
 """The temperature over a film and across it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -177,6 +178,7 @@ def temperature_across(
     fixed_wall: FixedWall,
     entering: float | Array | None = None,
     added_power: Array | None = None,
+    thinned: Callable[[Array], Array] | None = None,
     modes: int = MODES,
     start: TemperatureAcross | None = None,
     tolerance: float = TOLERANCE,
@@ -199,6 +201,8 @@ def temperature_across(
         the liquid.
     added_power : further power that heats the lubricant of each node, such as that of asperities which rub, W, shape
         (nx, ny); it is distributed across the film as the dissipation.
+    thinned : thinned(η), the viscosities of a liquid that thins with shear from those at rest at the points across,
+        both of shape (nx, ny, N); by default those at rest.
     modes : number N of Legendre modes across, from 2.
     start : a field with the same numbers of nodes and modes from which the iteration starts; its ``iterate`` is of use
         on the same grid alone, and is ignored for other numbers of nodes.
@@ -242,6 +246,7 @@ def temperature_across(
         walls=(walls[0], walls[1]),
         entry=walls[0].outside.copy(),
         turning=isinstance(sliding_wall, TurningWall),
+        thinned=thinned,
     )
     return _solved(film, np.array(temperature), None if start is None else start.iterate, tolerance, renewals)
 
@@ -258,6 +263,16 @@ class _Film:
     walls: tuple[WallCondition, WallCondition]
     entry: Array
     turning: bool
+    thinned: Callable[[Array], Array] | None
+
+
+def _near(film: _Film, properties: OverHeat, heat: Array) -> Linearised:
+    """The temperature and the viscosity near a heat, J/m³, with the shear of the film."""
+    near = linearised(properties, film.liquid.temperature, heat)
+    if film.thinned is None:
+        return near
+    viscosity = film.thinned(near.viscosity)
+    return replace(near, viscosity=viscosity, steepness=near.steepness * viscosity / near.viscosity)
 
 
 def _solved(
@@ -267,7 +282,7 @@ def _solved(
     supply = film.liquid.temperature
     heat = np.array(np.broadcast_to(film.liquid.heat(temperature)[0], temperature.shape))
     properties = over_heat(film.liquid, heat)
-    near = linearised(properties, supply, heat)
+    near = _near(film, properties, heat)
     response = np.zeros(temperature.shape) if film.turning else None
     done, reach, slope = 0, None, 0.0
     if before is not None and before.reach[0].shape == temperature.shape:
@@ -286,7 +301,7 @@ def _solved(
         changes = _relaxed(film, system, heat, into_wall, response, slope, FALL, SWEEPS)
         sweeps, change = sweeps + len(changes), changes[0] / _range(heat, near.inverse_capacity)
         properties = _containing(film.liquid, properties, heat, sweeps)
-        near = linearised(properties, supply, heat)
+        near = _near(film, properties, heat)
         if change <= tolerance or renewed == (RENEWALS if most is None else most):
             break
     checked = audited(system, film.nodes, film.parts, heat, near.temperature - supply, film.walls)
@@ -294,7 +309,7 @@ def _solved(
     least = max(RESIDUAL_TOLERANCE, rounded)
     while most is None and residual > least and sweeps < LAST_SWEEPS:
         sweeps += len(_relaxed(film, system, heat, into_wall, response, slope, 0.0, 2))
-        near = linearised(properties, supply, heat)
+        near = _near(film, properties, heat)
         checked = audited(system, film.nodes, film.parts, heat, near.temperature - supply, film.walls)
         residual, rounded = _residual(film, system, checked, near.temperature - supply)
         least = max(RESIDUAL_TOLERANCE, rounded)

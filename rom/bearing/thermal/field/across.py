@@ -1,5 +1,6 @@
 """The temperatures over a film and across it, between the walls of a scene."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -23,7 +24,6 @@ from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.bearing.thermal.tables import Adiabatic, Conducting, GivenTemperature, HalfSpace, Heat, Turning
 from roughfilm.rom.cavitation.evaluation.flows import node_balances
 from roughfilm.rom.cavitation.solve import Solution
-from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.shear_thinning.film import thinned_profiles
 from roughfilm.rom.temperature.across import MODES, TemperatureAcross, temperature_across
 from roughfilm.rom.temperature.basis import basis
@@ -69,17 +69,18 @@ class BetweenWalls:
         new = new_lubricant(scene, solution, liquid.temperature)
         back, rubs = returning(scene, solution, new), rubbing(scene, solution, near)
         sliding, fixed = walls_of(scene, liquid.temperature)
-        sheared = sheared_liquid(scene, solution)
+        thinned = shear_of(scene, solution)
         refined = near is not None and near.temperature.shape != solution.grid.shape
 
         def temperatures(inlet: float | None, known: TemperatureAcross | None) -> TemperatureAcross:
             return temperature_across(
                 solution,
-                sheared,
+                liquid,
                 sliding_wall=sliding,
                 fixed_wall=fixed,
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
                 added_power=None if rubs is None else rubs.power,
+                thinned=thinned,
                 start=_start(near, solution) if known is None else known,
                 tolerance=TOLERANCE,
                 renewals=1 if refined else None,
@@ -122,24 +123,24 @@ class BetweenWalls:
         )
 
 
-def sheared_liquid(scene: Bearing, solution: Solution) -> Liquid:
-    """The lubricant with the viscosities of its shear at the points across a film, for the temperatures there.
+def shear_of(scene: Bearing, solution: Solution) -> Callable[[Array], Array] | None:
+    """The viscosities of the shear from those at rest at the points across a film; None of a Newtonian lubricant.
 
-    The flow of the film stays the same; its profile is that of the law at the viscosities at rest of the temperatures.
+    The flow of the film stays the same; its profile is that of the law at the viscosities at rest.
     """
-    liquid, law = scene.lubricant.liquid, scene.lubricant.shear_thinning
+    law = scene.lubricant.shear_thinning
     if law is None:
-        return liquid
+        return None
     curve, gap, parts = law.curve(scene.lubricant.viscosity), mean_gap(solution), basis(MODES)
     stress: Array | None = None
 
-    def viscosity(temperature: Array) -> tuple[Array, Array]:
+    def thinned(at_rest: Array) -> Array:
         nonlocal stress
-        eta, slope = liquid.viscosity(temperature)
-        found, stress = thinned_profiles(solution, curve, eta, (parts.points, parts.weights), gap=gap, start=stress)
-        return found, slope * found / eta
+        across = parts.points, parts.weights
+        viscosity, stress = thinned_profiles(solution, curve, at_rest, across, gap=gap, start=stress)
+        return viscosity
 
-    return replace(liquid, viscosity=viscosity)
+    return thinned
 
 
 def _start(near: HeatedFilm | None, solution: Solution) -> TemperatureAcross | None:
