@@ -10,7 +10,17 @@ from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.basis import Basis, basis
-from roughfilm.rom.temperature.equations import Audit, Equations, Plane, audited, equations, linearised, plane
+from roughfilm.rom.temperature.equations import (
+    Audit,
+    Equations,
+    Linearised,
+    Plane,
+    audited,
+    equations,
+    linearised,
+    plane,
+    viscosities_across,
+)
 from roughfilm.rom.temperature.power import Carriers, carriers
 from roughfilm.rom.temperature.sweeps import summarise, sweep
 from roughfilm.rom.temperature.walls import FixedWall, SlidingWall, TurningWall, WallCondition, condition
@@ -18,10 +28,13 @@ from roughfilm.rom.temperature.walls import FixedWall, SlidingWall, TurningWall,
 MODES = 8
 """Number of Legendre modes across the film by default."""
 
-TOLERANCE = 1e-5
-"""Mean change of the temperature over its range, after viscosities are renewed, at which the iteration stops."""
+TOLERANCE = 1e-4
+"""Mean change of the temperature over its range, in the first sweep after viscosities are renewed, at which it stops.
 
-RESIDUAL_TOLERANCE = 1e-9
+The sweeps after it reduce the error further, to about a tenth.
+"""
+
+RESIDUAL_TOLERANCE = 5e-9
 """Largest residual of the equations with the last viscosities."""
 
 RENEWALS = 60
@@ -30,8 +43,11 @@ RENEWALS = 60
 SWEEPS = 6
 """Largest number of sweeps with the same equations before viscosities are renewed."""
 
-FALL = 0.05
+FALL = 0.2
 """Change of a sweep over that of the first one with the same equations, at which the equations are renewed."""
+
+LAST_FALL = 1e-4
+"""The same where the temperature no longer changes, but the equations have a residual."""
 
 PLACES = 65
 """Places across the film between which the largest temperature lies."""
@@ -45,10 +61,10 @@ LEAST_RANGE = 0.01
 ROUND_OFF = 256 * float(np.finfo(float).eps)
 """Round-off of the residuals over the heat that would be conducted across the film by the range of its temperature."""
 
-LAST_SWEEPS = 400
-"""Largest number of sweeps with the last equations."""
+LARGEST_RISE = 1000.0
+"""Largest difference from the temperature of the supply, K, before the iteration ends."""
 
-LIMITED_RENEWALS = 6
+LIMITED_RENEWALS = 12
 """Number of renewals, from the first start on, after which the limited factors of the faces stay the same.
 
 They would keep changing by little where the temperature is uneven, so that the iteration would not converge.
@@ -122,13 +138,13 @@ class TemperatureAcross:
     points, weights : positions ζ = z/h of the N Gauss points from the sliding wall, and their weights, which sum to 1.
     mean : mean of T across the film, K, shape (nx, ny).
     carried : mean of T weighted by the size of the velocity along the sliding, K, shape (nx, ny).
-    viscosities : viscosities across the film at the nodes.
+    viscosities : viscosities at T at the nodes, at the cavitation pressure.
     sliding_wall, fixed_wall : temperatures of the walls and heat fluxes into them.
     largest : largest temperature of the film, K.
     place : position (x, y, ζ) of the largest temperature.
     balance : heat flows of the film.
     residual : sum of the sizes of all residuals over the power and the sizes of the heat flows in.
-    change : mean change of T over its range after viscosities were renewed last.
+    change : mean change of T over its range in the first sweep after viscosities were renewed last.
     sweeps : number of sweeps over the film.
     shaft : temperature of a turning wall, K; None for other walls.
     iterate : what a further iteration starts from.
@@ -183,8 +199,10 @@ def temperature_across(
     added_power : further power that heats the lubricant of each node, such as that of asperities which rub, W, shape
         (nx, ny); it is distributed across the film as the dissipation.
     modes : number N of Legendre modes across, from 2.
-    start : a field on the same grid with the same number of modes from which the iteration starts.
-    tolerance : mean change of the temperature over its range, after viscosities are renewed, at which it stops.
+    start : a field with the same numbers of nodes and modes from which the iteration starts; its ``iterate`` is of use
+        on the same grid alone, and is ignored for other numbers of nodes.
+    tolerance : mean change of the temperature over its range, in the first sweep after viscosities are renewed, at
+        which it stops.
     renewals : number of renewals of the viscosities after which the iteration stops without meeting the tolerance, for
         a film that changes further; residual and change are those reached.
 
@@ -207,14 +225,13 @@ def temperature_across(
     given = liquid.temperature if entering is None else entering
     parts, moved = basis(modes), carriers(solution)
     if added_power is not None:
-        moved = replace(moved, power=moved.power + added_power)
+        moved = replace(moved, added=added_power)
     temperature = (
         np.broadcast_to(np.asarray(given, dtype=float)[..., None], shape) if start is None else start.temperature
     )
-    warm = float(np.mean(given)) if start is None or start.shaft is None else start.shaft
-    walls = tuple(
-        condition(wall, solution, moved.filling, liquid.temperature, warm) for wall in (sliding_wall, fixed_wall)
-    )
+    shaft = float(np.mean(given)) if start is None or start.shaft is None else start.shaft
+    both = sliding_wall, fixed_wall
+    walls = [condition(wall, solution, moved.filling, liquid.temperature, shaft) for wall in both]
     film = _Film(
         solution=solution,
         liquid=liquid,
@@ -246,47 +263,57 @@ def _solved(
     film: _Film, temperature: Array, before: Iterate | None, tolerance: float, most: int | None
 ) -> TemperatureAcross:
     """Renew viscosities and equations, and sweep, until the temperature no longer changes."""
-    near = linearised(film.liquid, temperature)
+    supply = film.liquid.temperature
     heat = np.array(np.broadcast_to(film.liquid.heat(temperature)[0], temperature.shape))
+    near = linearised(film.liquid, heat, temperature)
     response = np.zeros(temperature.shape) if film.turning else None
     done, reach, slope = 0, None, 0.0
-    if before is not None:
+    if before is not None and before.reach[0].shape == temperature.shape:
         done, reach = before.renewals, before.reach if before.renewals >= LIMITED_RENEWALS else None
         if film.turning and before.response is not None:
             response, slope = before.response.copy(), before.slope
     into_wall, sweeps, renewed, change = np.zeros(temperature.shape[:2]), 0, 0, np.inf
-    fixed = film.solution, film.liquid, film.moved, film.nodes, film.parts
+    fixed = film.solution, supply, film.moved, film.nodes, film.parts
     known: Equations | None = None
+    fall, limit = FALL, RENEWALS if most is None else most
     while True:
         known = system = equations(*fixed, near, film.walls, heat, reach, known)
         done, renewed = done + 1, renewed + 1
         reach = system.reach if done >= LIMITED_RENEWALS else None
         if response is not None and (slope == 0 or renewed == 2):
             slope = _respond(film, system, response)
-        changes = _relaxed(film, system, heat, into_wall, response, slope, FALL, SWEEPS)
+        changes = _relaxed(film, system, heat, into_wall, response, slope, fall)
         sweeps, change = sweeps + len(changes), changes[0] / _range(heat, near.inverse_capacity)
-        near = linearised(film.liquid, near.at(heat))
-        if change <= tolerance or renewed == (RENEWALS if most is None else most) or not np.isfinite(change):
-            break
-    checked = audited(system, film.nodes, film.parts, heat, near.rise(heat), film.walls)
-    residual, rounded = _residual(film, system, checked, near.rise(heat))
-    least = max(RESIDUAL_TOLERANCE, rounded)
-    while most is None and residual > least and sweeps < LAST_SWEEPS:
-        sweeps += len(_relaxed(film, system, heat, into_wall, response, slope, 0.0, 2))
-        near = linearised(film.liquid, near.at(heat))
-        checked = audited(system, film.nodes, film.parts, heat, near.rise(heat), film.walls)
-        residual, rounded = _residual(film, system, checked, near.rise(heat))
-        least = max(RESIDUAL_TOLERANCE, rounded)
-    if not np.isfinite(residual) or (most is None and (residual > least or change > tolerance)):
+        _check_range(film.liquid, heat, sweeps)
+        near = linearised(film.liquid, heat, near.near(supply, heat))
+        if change <= tolerance or renewed == limit:
+            checked = audited(system, film.nodes, film.parts, heat, near.temperature - supply, film.walls)
+            residual, rounded = _residual(film, system, checked, near.temperature - supply)
+            least, fall = max(RESIDUAL_TOLERANCE, rounded), LAST_FALL
+            if residual <= least or renewed == limit:
+                break
+    if most is None and (residual > least or change > tolerance):
         raise ConvergenceError(
             f"temperature across the film: after {sweeps} sweeps it changes by {change:.1e} of its range, with a "
             f"residual of {residual:.1e}, above the tolerances {tolerance:.1e} and {least:.1e}; take more "
             "cells, or a lower speed or viscosity",
-            outcome=Outcome.UNFINISHED if np.isfinite(residual) else Outcome.DIVERGED,
+            outcome=Outcome.UNFINISHED,
             iterations=sweeps,
         )
     following = Iterate(reach=system.reach, renewals=done, response=response, slope=slope)
-    return _result(film, system, heat, near.temperature, checked, residual, change, sweeps, following)
+    return _result(film, system, heat, near, checked, residual, change, sweeps, following)
+
+
+def _check_range(liquid: Liquid, heat: Array, sweeps: int) -> None:
+    """Raise ConvergenceError if the heat is not finite, or beyond the range of all laws of viscosity."""
+    capacity = float(np.ravel(liquid.heat(np.array([liquid.temperature]))[1])[0])
+    if not np.abs(heat).max() <= LARGEST_RISE * capacity:
+        raise ConvergenceError(
+            f"temperature across the film: after {sweeps} sweeps it differs by more than {LARGEST_RISE:g} K from that "
+            "of the supply, where no lubricant is liquid; lower the speed or the viscosity, or cool the film more",
+            outcome=Outcome.DIVERGED,
+            iterations=sweeps,
+        )
 
 
 def _relaxed(
@@ -297,11 +324,10 @@ def _relaxed(
     response: Array | None,
     slope: float,
     fall: float,
-    most: int,
 ) -> list[float]:
     """Sweep until the mean change has fallen; a turning wall takes the temperature at which it gets no heat."""
     changes: list[float] = []
-    while len(changes) < most and not (changes and changes[-1] <= fall * changes[0]):
+    while len(changes) < SWEEPS and not (changes and changes[-1] <= fall * changes[0]):
         changes.append(_sweep(film, system, heat, into_wall))
         if response is not None and slope < 0:
             step = -float((film.nodes.area * into_wall).sum()) / slope
@@ -356,7 +382,7 @@ def _result(
     film: _Film,
     system: Equations,
     heat: Array,
-    temperature: Array,
+    near: Linearised,
     checked: Audit,
     residual: float,
     change: float,
@@ -364,7 +390,7 @@ def _result(
     iterate: Iterate,
 ) -> TemperatureAcross:
     """The fields and the heat balance of a converged iteration."""
-    parts, nodes = film.parts, film.nodes
+    parts, nodes, temperature = film.parts, film.nodes, near.temperature
     mean, carried, peaks, low, high = (np.empty(nodes.area.shape) for _ in range(5))
     written = mean, carried, peaks, low, high
     flows = system.along, system.leaving, system.stored
@@ -384,7 +410,7 @@ def _result(
         weights=parts.weights,
         mean=mean,
         carried=carried,
-        viscosities=system.viscosities,
+        viscosities=viscosities_across(parts, near.viscosity),
         sliding_wall=WallHeat(temperature=low, flux=film.moved.filling * checked.into_sliding),
         fixed_wall=WallHeat(temperature=high, flux=film.moved.filling * checked.into_fixed),
         largest=largest,

@@ -9,11 +9,17 @@ from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.basis import Basis
-from roughfilm.rom.temperature.blocks import LANES, blocks, exchange, upward_flows
+from roughfilm.rom.temperature.blocks import LANES, blocks, exchange, sources, upward_flows
 from roughfilm.rom.temperature.power import Carriers
 from roughfilm.rom.temperature.profiles import divide, profile
 from roughfilm.rom.temperature.sweeps import audit, reaches
 from roughfilm.rom.temperature.walls import WallCondition
+
+NEWTON_STEPS = 20
+"""Largest number of steps for the temperature of a heat."""
+
+TEMPERATURE_ACCURACY = 1e-9
+"""Step, K, at which they stop."""
 
 OVERSHOOT = 1e-3
 """Amount over the range of the heat by which a value at a face may lie outside of those of its nodes."""
@@ -21,31 +27,42 @@ OVERSHOOT = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class Linearised:
-    """Temperatures T = T₀ + offset + E/(ρc) near a field, K, over the heat E of a volume, J/m³; shape (nx, ny, N)."""
+    """The temperature T = T₀ + offset + E/(ρc) near a heat E of a volume, J/m³; arrays of shape (nx, ny, N).
 
-    supply: float
+    Attributes
+    ----------
+    temperature, offset : T and offset, K.
+    inverse_capacity : 1/(ρc), m³ K/J.
+    viscosity, steepness : η, Pa s, and dη/dT.
+    """
+
     temperature: Array
     offset: Array
     inverse_capacity: Array
+    viscosity: Array
+    steepness: Array
 
-    def rise(self, heat: Array) -> Array:
-        """T - T₀ at a heat."""
-        return np.asarray(self.offset + heat * self.inverse_capacity)
-
-    def at(self, heat: Array) -> Array:
-        """The temperatures at a heat."""
-        return self.supply + self.rise(heat)
+    def near(self, supply: float, heat: Array) -> Array:
+        """T at a heat near that of these temperatures, to second order."""
+        return supply + self.offset + heat * self.inverse_capacity
 
 
-def linearised(liquid: Liquid, temperature: Array) -> Linearised:
-    """The temperature over the heat of a liquid near given temperatures."""
-    heat, capacity = liquid.heat(temperature)
-    inverse = 1 / np.broadcast_to(capacity, temperature.shape)
+def linearised(liquid: Liquid, heat: Array, temperature: Array) -> Linearised:
+    """The temperature and the viscosity near a heat, J/m³, from temperatures near it, K, by Newton's method."""
+    for _ in range(NEWTON_STEPS):
+        value, capacity = liquid.heat(temperature)
+        step = (heat - value) / capacity
+        if float(np.abs(step).max()) <= TEMPERATURE_ACCURACY:
+            break
+        temperature = temperature + step
+    inverse = 1 / capacity
+    viscosity, steepness = (np.ascontiguousarray(values) for values in liquid.viscosity(temperature))
     return Linearised(
-        supply=liquid.temperature,
         temperature=temperature,
         offset=(temperature - liquid.temperature) - heat * inverse,
         inverse_capacity=inverse,
+        viscosity=viscosity,
+        steepness=steepness,
     )
 
 
@@ -105,7 +122,6 @@ class Equations:
 
     Attributes
     ----------
-    viscosities : those across the film at the nodes.
     along, beside : flows of the points through the faces towards i + 1 and j + 1.
     entering, leaving : flows of the points from and to the outside.
     stored : what leaves the nodes without an unknown flow, at the temperature of each point, shape (nx, ny).
@@ -117,7 +133,6 @@ class Equations:
     solved : the arrays of :func:`roughfilm.rom.temperature.blocks.blocks` from ``inverse`` on.
     """
 
-    viscosities: Viscosities
     along: Array
     beside: Array
     entering: Array
@@ -133,7 +148,7 @@ class Equations:
 
 def equations(
     solution: Solution,
-    liquid: Liquid,
+    supply: float,
     moved: Carriers,
     nodes: Plane,
     parts: Basis,
@@ -145,12 +160,12 @@ def equations(
 ) -> Equations:
     """The equations with the viscosities of the temperatures of ``near``, and a dissipation linear near them.
 
+    ``supply`` is T₀, K.
     The values at the faces have the factors ``reach``, or are limited for a heat, J/m³, where these are None. The
     arrays of the equations ``before``, except for these factors, are written again, which saves time.
     """
     shape, net, size = near.temperature.shape, solution.network, parts.points.size
-    flow, shear, carried, stored = (np.empty(shape[:2]) for _ in range(4))
-    viscosity, steepness = (np.ascontiguousarray(values) for values in liquid.viscosity(near.temperature))
+    shear, stored = np.empty(shape[:2]), np.empty(shape[:2])
     drift, push = np.empty(shape), np.empty(shape)
     if before is None:
         heating, softening, along, beside, entering, leaving, upward = (np.empty(shape) for _ in range(7))
@@ -166,16 +181,16 @@ def equations(
     moving = moved.speed, moved.gradient_x, moved.gradient_y
     across = parts.points, parts.weights, parts.integrals
     profiles = drift, push, heating, softening
-    profile(viscosity, steepness, *across, thickness, *moving, *profiles, flow, shear, carried)
+    profile(near.viscosity, near.steepness, *across, thickness, *moving, *profiles, shear)
     divide(moved.sliding, moved.pressing, moved.across, drift, push, *nodes.periodic, along, beside)
     exchange(along, beside, net.supplied, drift, push, net.fixed, *nodes.periodic, entering, leaving, stored)
-    upward_flows(along, beside, entering, leaving, stored, parts.weights, parts.integrals, *nodes.periodic, upward)
+    rising = np.ascontiguousarray((parts.weights[:, None] * parts.integrals / parts.weights).T)
+    upward_flows(along, beside, entering, leaving, stored, parts.weights, rising, *nodes.periodic, upward)
     if reach is None:
         reach = np.empty(shape), np.empty(shape)
         reaches(heat, along, beside, *nodes.ratios, *nodes.periodic, OVERSHOOT * float(np.ptp(heat)), *reach)
-    heating *= (moved.fluid_power * shear)[..., None]
-    known = 1 - (softening * (near.temperature - near.supply)).sum(axis=2)
-    source = entering * nodes.entering[..., None] + heating * known[..., None]
+    source, power = np.empty(shape), moved.fluid_power * shear
+    sources(entering, nodes.entering, power, moved.added, near.temperature, supply, softening, heating, source)
     sliding, fixed = walls
     scratch, right = np.ones((size + 2, size + 2, LANES)), np.ones((size + 2, LANES))
     blocks(
@@ -186,7 +201,6 @@ def equations(
         *(scratch, scratch.reshape(size + 2, -1), right, np.ones((7, size, LANES)), *solved),
     )
     return Equations(
-        viscosities=Viscosities(flow=flow, shear=shear, carried=carried),
         along=along,
         beside=beside,
         entering=entering,
@@ -199,6 +213,14 @@ def equations(
         softening=softening,
         solved=solved,
     )
+
+
+def viscosities_across(parts: Basis, viscosity: Array) -> Viscosities:
+    """The viscosities of a film from those at its points, Pa s, by the exact integrals of polynomials."""
+    fluidity = 1 / viscosity
+    zeroth, first = fluidity @ parts.weights, fluidity @ (parts.weights * parts.points)
+    second = fluidity @ (parts.weights * parts.points**2) - first**2 / zeroth
+    return Viscosities(flow=1 / (12 * second), shear=1 / zeroth, carried=2 * first / zeroth)
 
 
 @dataclass(frozen=True, kw_only=True)

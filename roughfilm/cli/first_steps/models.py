@@ -31,7 +31,7 @@ TYPICAL_CPU_S = {
         "homogenized": 0.3,
         "mixed": 0.4,
         "heat_balance": 0.9,
-        "shear_thinning": 1.3,
+        "shear_thinning": 1,
         "adiabatic": 0.4,
         "across": 1.4,
         "direct": 1.3,

@@ -1,13 +1,16 @@
 """Bearings whose lubricant thins with shear: against films of constant viscosity, a power law, and a given film."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 
 import roughfilm as rf
+from roughfilm import rom
 from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.ladder.model import find, ladder, of_kind
 from roughfilm.rom.lubricants.shear_thinning import CarreauYasuda
 
 LAW = {"law": "carreau_yasuda", "index": 0.5, "critical_stress": "2 kPa"}
@@ -52,6 +55,27 @@ def test_a_scene_of_a_newtonian_lubricant_is_refused() -> None:
         rf.solve(scene(None, PAD), model="shear_thinning", resolution=CELLS)
 
 
+def test_models_of_newtonian_lubricants_say_what_they_leave_out() -> None:
+    for name in ("reynolds_cavitating", "infinitely_wide"):
+        model = find(of_kind(ladder(rom, kind="bearing"), "bearing"), "bearing", name)
+        assert "leaves out lubricant.shear_thinning" in model.applies(scene(LAW, PAD)).reason
+        assert "shear_thinning" not in model.applies(scene(None, PAD)).reason
+
+
+@pytest.mark.parametrize(
+    "calculate",
+    [
+        lambda one: rf.march(one),
+        lambda one: rf.dynamics(one, speeds=[4.0], loads=[1e6]),
+        lambda one: rf.stribeck(one, [1.0, 4.0], [1e6]),
+    ],
+    ids=["march", "dynamics", "stribeck"],
+)
+def test_calculations_of_newtonian_lubricants_refuse_others(calculate: Callable[[rf.Scene], object]) -> None:
+    with pytest.raises(rf.InputError, match=r"lubricant.shear_thinning: got 'carreau_yasuda'; .* takes Newtonian"):
+        calculate(scene(LAW, PIVOTED, load={"force": "300 N"}))
+
+
 def test_an_infinite_shear_viscosity_above_that_at_rest_is_refused() -> None:
     with pytest.raises(rf.InputError, match=r"infinite_shear_viscosity: got 0.06 Pa s; it must be below"):
         scene({**LAW, "infinite_shear_viscosity": "60 mPa*s"}, PAD)
@@ -72,6 +96,10 @@ def test_uncertainties_cover_a_finer_grid_and_a_load_leads_back_to_its_film() ->
     fine = rf.solve(scene(LAW, PAD), model="shear_thinning", resolution=96)
     for name in ("load", "friction", "pressure_max", "inlet_flow"):
         assert abs(coarse[name].value - fine[name].value) <= coarse[name].uncertainty + fine[name].uncertainty, name
+    for one in (coarse, fine):
+        assert one.numerics.details["viscosity_change"] < 1e-6
+        assert one.numerics.details["coupled_residual"] < 1e-5
+        assert one.numerics.details["contraction"] < 0.55  # at most 1 - n for steps without acceleration
     load = {"force": coarse["load"].value}
     back = rf.solve(scene(LAW, PAD, load=load), model="shear_thinning", resolution=24)
     assert back["film_min"].value == pytest.approx(10e-6, rel=1e-5)
@@ -105,11 +133,11 @@ def test_the_heat_balance_has_the_film_of_its_temperature() -> None:
         "heat_capacity": "2000 J/(kg*K)",
         "shear_thinning": {"law": "carreau_yasuda", "index": 0.5, "relaxation_time": "25 us"},
     }
-    cold = scene(None, PAD, lubricant=lubricant)
+    cold = scene(None, {key: one for key, one in PAD.items() if key != "width"}, lubricant=lubricant)
     found = rf.solve(cold, model="heat_balance", resolution=CELLS)
     assert isinstance(cold, Bearing)
     hot = cold.at_temperature(found["effective_temperature"].value + ZERO_CELSIUS)
     film = rf.solve(hot, model="shear_thinning", resolution=CELLS)
-    assert found["load"].value == pytest.approx(film["load"].value, rel=1e-6)
+    assert found["load_per_width"].value == pytest.approx(film["load_per_width"].value, rel=1e-6)
     newtonian = rf.solve(rf.replace(cold, "lubricant.shear_thinning.index", 1), model="heat_balance", resolution=CELLS)
     assert found["effective_temperature"].value < newtonian["effective_temperature"].value - 3

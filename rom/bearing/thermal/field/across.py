@@ -5,16 +5,28 @@ from functools import partial
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
-from roughfilm.rom.bearing.thermal.field.mixing import at_mixture, new_lubricant, returning, temperature_of
+from roughfilm.rom.bearing.thermal.field.mixing import (
+    COARSE_NODES,
+    MIXED,
+    at_mixture,
+    new_lubricant,
+    returning,
+    temperature_of,
+)
+from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
 from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.bearing.thermal.tables import Adiabatic, Conducting, GivenTemperature, HalfSpace, Heat, Turning
 from roughfilm.rom.cavitation.evaluation.flows import node_balances
-from roughfilm.rom.cavitation.interpolation import interpolated
 from roughfilm.rom.cavitation.solve import Solution
-from roughfilm.rom.temperature.across import TemperatureAcross, temperature_across
+from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.shear_thinning.film import thinned_profiles
+from roughfilm.rom.temperature.across import MODES, TemperatureAcross, temperature_across
+from roughfilm.rom.temperature.basis import basis
 from roughfilm.rom.temperature.walls import (
     ConductingWall,
     FixedWall,
@@ -24,6 +36,9 @@ from roughfilm.rom.temperature.walls import (
     TurningWall,
     WallAtTemperature,
 )
+
+TOLERANCE = 1e-5
+"""Mean change of the temperature over its range at which its iteration stops, as that of film and temperature."""
 
 
 @dataclass(frozen=True)
@@ -51,16 +66,18 @@ class BetweenWalls:
         new = new_lubricant(scene, solution, liquid.temperature)
         back, rubs = returning(scene, solution, new), rubbing(scene, solution, near)
         sliding, fixed = walls_of(scene, liquid.temperature)
+        sheared = sheared_liquid(scene, solution)
 
         def temperatures(inlet: float | None, known: TemperatureAcross | None) -> TemperatureAcross:
             return temperature_across(
                 solution,
-                liquid,
+                sheared,
                 sliding_wall=sliding,
                 fixed_wall=fixed,
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
                 added_power=None if rubs is None else rubs.power,
                 start=_start(near, solution) if known is None else known,
+                tolerance=TOLERANCE,
             )
 
         if back is None:
@@ -70,6 +87,7 @@ class BetweenWalls:
                 temperatures,
                 lambda one: back.mixture(liquid, one.carried),
                 back.first if near is None or near.inlet is None else near.inlet,
+                once=near is not None and solution.state.pressure.size > COARSE_NODES,
             )
         balance, leaving = found.balance, float(np.maximum(-node_balances(solution), 0.0).sum())
         heat = scene.heat or Heat()
@@ -95,7 +113,28 @@ class BetweenWalls:
                 "fixed_wall_temperature": found.fixed_wall.temperature,
             },
             start=found,
+            settled=mixture is None or abs(mixture.error) <= MIXED,
         )
+
+
+def sheared_liquid(scene: Bearing, solution: Solution) -> Liquid:
+    """The lubricant with the viscosities of its shear at the points across a film, for the temperatures there.
+
+    The flow of the film stays the same; its profile is that of the law at the viscosities at rest of the temperatures.
+    """
+    liquid, law = scene.lubricant.liquid, scene.lubricant.shear_thinning
+    if law is None:
+        return liquid
+    curve, gap, parts = law.curve(scene.lubricant.viscosity), mean_gap(solution), basis(MODES)
+    stress: Array | None = None
+
+    def viscosity(temperature: Array) -> tuple[Array, Array]:
+        nonlocal stress
+        eta, slope = liquid.viscosity(temperature)
+        found, stress = thinned_profiles(solution, curve, eta, (parts.points, parts.weights), gap=gap, start=stress)
+        return found, slope * found / eta
+
+    return replace(liquid, viscosity=viscosity)
 
 
 def _start(near: HeatedFilm | None, solution: Solution) -> TemperatureAcross | None:
@@ -106,10 +145,12 @@ def _start(near: HeatedFilm | None, solution: Solution) -> TemperatureAcross | N
     assert isinstance(known, TemperatureAcross)
     if known.temperature.shape[:2] == solution.grid.shape:
         return known
-    layers = tuple(np.ascontiguousarray(known.temperature[..., layer]) for layer in range(known.points.size))
-    moved = interpolated(layers, near.grid, solution.grid, solution.problem.shape.joined)
+    x, y = np.meshgrid(solution.grid.x, solution.grid.y, indexing="ij")
+    layers = np.moveaxis(known.temperature, -1, 0)
+    moved = between_nodes(layers, near.grid, solution.problem.shape.joined, x.ravel(), y.ravel())
+    temperature = np.ascontiguousarray(moved.reshape(-1, *x.shape).transpose(1, 2, 0))
     fresh = replace(known.iterate, renewals=0, response=None)
-    return replace(known, temperature=np.stack(moved, axis=-1), iterate=fresh)
+    return replace(known, temperature=temperature, iterate=fresh)
 
 
 def walls_of(scene: Bearing, supplied: float) -> tuple[SlidingWall, FixedWall]:

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.grid import Grid
-from roughfilm.rom.cavitation.interpolation import interpolated
 from roughfilm.rom.cavitation.solve import Solution
 
 SAME = 1e-4
@@ -24,12 +24,19 @@ class Mixture:
 
     Attributes
     ----------
-    temperature : temperature of the mixture of new and hot lubricant, K.
+    temperature : temperature at the inlet, K.
+    error : difference of the mixture of new and hot lubricant from it, K.
     slope : change of the mixture with the temperature at the inlet, by what returns.
     """
 
     temperature: float
+    error: float
     slope: float
+
+    @property
+    def following(self) -> float:
+        """The temperature at the inlet, K, that is expected to be that of its mixture."""
+        return self.temperature + self.error / (1 - self.slope)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,6 +62,7 @@ class HeatedFilm:
     friction : coefficient of boundary friction; None without asperities.
     walls : temperatures of walls at the nodes, K, shape (nx, ny), by the name of the field.
     start : what the next iteration starts from.
+    settled : whether the energy equation is solved to its tolerance, and the mixture at the inlet is that of the film.
     """
 
     grid: Grid
@@ -73,6 +81,7 @@ class HeatedFilm:
     friction: float | None = None
     walls: Mapping[str, Array] = field(default_factory=dict)
     start: object = None
+    settled: bool = True
 
 
 def hottest(temperature: Array, grid: Grid) -> tuple[float, float]:
@@ -92,4 +101,6 @@ def start_of(near: HeatedFilm | None, solution: Solution) -> Array | None:
         return None
     if near.temperature.shape == solution.grid.shape:
         return near.temperature
-    return interpolated((near.temperature,), near.grid, solution.grid, solution.problem.shape.joined)[0]
+    x, y = np.meshgrid(solution.grid.x, solution.grid.y, indexing="ij")
+    found = between_nodes(near.temperature, near.grid, solution.problem.shape.joined, x.ravel(), y.ravel())
+    return found.reshape(solution.grid.shape)

@@ -25,6 +25,9 @@ HeatedT = TypeVar("HeatedT")
 MIXED = 1e-4
 """Error of the temperature of a mixture, K, at which its iteration stops."""
 
+COARSE_NODES = 2000
+"""Largest number of nodes of a grid on which the mixture of each film is iterated to the end, as that of the first."""
+
 LEAST_STEP = 0.01
 """Smallest step of the temperature at the inlet, K, from which the slope of the mixture is taken."""
 
@@ -64,7 +67,7 @@ class Returning:
     @property
     def first(self) -> Mixture:
         """The mixture from which an iteration starts."""
-        return Mixture(temperature=self.new, slope=FIRST_SLOPE * self.share)
+        return Mixture(temperature=self.new, error=0.0, slope=FIRST_SLOPE * self.share)
 
     def mixture(self, liquid: Liquid, temperature: Array) -> float:
         """The temperature of the mixture, K, from those of the nodes, shape (nx, ny)."""
@@ -161,18 +164,24 @@ def replaced(scene: Bearing, solution: Solution, liquid: Liquid) -> Array:
 
 
 def at_mixture(
-    solve: Callable[[float, HeatedT | None], HeatedT], image: Callable[[HeatedT], float], first: Mixture
+    solve: Callable[[float, HeatedT | None], HeatedT],
+    image: Callable[[HeatedT], float],
+    first: Mixture,
+    *,
+    once: bool,
 ) -> tuple[HeatedT, Mixture]:
-    """The temperatures of a film whose inlet has the temperature of the mixture that they bring about.
+    """The temperatures of a film whose inlet has about the temperature of the mixture that they bring about.
 
     The heat that leaves grows by less than the heat that enters, since warmer lubricant is thinner, so that the mixture
     contracts by at most its share of hot lubricant and what stays in the film; the iteration extrapolates this slope.
+    On a fine grid one step is enough, with the slope of a coarse one: the film changes with the mixture anyway.
 
     Parameters
     ----------
     solve : solve(temperature, near), the temperatures of the film, K, for a temperature at the inlet.
     image : image(temperatures), the temperature of their mixture, K.
     first : mixture from which the iteration starts.
+    once : whether one step is enough.
 
     Returns
     -------
@@ -184,19 +193,20 @@ def at_mixture(
     ConvergenceError
         If the mixture does not converge.
     """
-    inlet, slope, before, near = first.temperature, first.slope, None, None
+    inlet, slope, before, near = first.following, first.slope, None, None
     for _ in range(MAX_MIXTURES):
         near = solve(inlet, near)
         rest = image(near) - inlet
         if before is not None and abs(inlet - before[0]) >= LEAST_STEP:
             slope = min(max(1 + (rest - before[1]) / (inlet - before[0]), 0.0), STEEPEST)
-        if abs(rest) <= MIXED:
-            return near, Mixture(temperature=inlet, slope=slope)
+        mixture = Mixture(temperature=inlet, error=rest, slope=slope)
+        if abs(rest) <= MIXED or once:
+            return near, mixture
         if inlet > HOTTEST:
             break
-        before, inlet = (inlet, rest), inlet + rest / (1 - slope)
+        before, inlet = (inlet, rest), mixture.following
     raise ConvergenceError(
-        f"temperature: thermal runaway, hot lubricant enters the film again and heats its inlet to "
+        "temperature: thermal runaway, hot lubricant enters the film again and heats its inlet to "
         f"{inlet - ZERO_CELSIUS:.4g} degC and above; lower heat.carried_over, or let more new lubricant in through "
         "sides or supplies",
         outcome=Outcome.DIVERGED,
