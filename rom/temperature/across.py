@@ -22,7 +22,6 @@ from roughfilm.rom.temperature.equations import (
     viscosities_across,
 )
 from roughfilm.rom.temperature.power import Carriers, carriers
-from roughfilm.rom.temperature.properties import OverHeat, over_heat
 from roughfilm.rom.temperature.sweeps import summarise, sweep
 from roughfilm.rom.temperature.walls import FixedWall, SlidingWall, TurningWall, WallCondition, condition
 
@@ -266,8 +265,7 @@ def _solved(
     """Renew viscosities and equations, and sweep, until the temperature no longer changes."""
     supply = film.liquid.temperature
     heat = np.array(np.broadcast_to(film.liquid.heat(temperature)[0], temperature.shape))
-    properties = over_heat(film.liquid, heat)
-    near = linearised(properties, supply, heat)
+    near = linearised(film.liquid, heat, temperature)
     response = np.zeros(temperature.shape) if film.turning else None
     done, reach, slope = 0, None, 0.0
     if before is not None and before.reach[0].shape == temperature.shape:
@@ -286,8 +284,8 @@ def _solved(
             slope = _respond(film, system, response)
         changes = _relaxed(film, system, heat, into_wall, response, slope, fall)
         sweeps, change = sweeps + len(changes), changes[0] / _range(heat, near.inverse_capacity)
-        properties = _containing(film.liquid, properties, heat, sweeps)
-        near = linearised(properties, supply, heat)
+        _check_range(film.liquid, heat, sweeps)
+        near = linearised(film.liquid, heat, near.near(supply, heat))
         if change <= tolerance or renewed == limit:
             checked = audited(system, film.nodes, film.parts, heat, near.temperature - supply, film.walls)
             residual, rounded = _residual(film, system, checked, near.temperature - supply)
@@ -306,16 +304,8 @@ def _solved(
     return _result(film, system, heat, near, checked, residual, change, sweeps, following)
 
 
-def _containing(liquid: Liquid, properties: OverHeat, heat: Array, sweeps: int) -> OverHeat:
-    """A table of a liquid that contains a heat, J/m³.
-
-    Raises
-    ------
-    ConvergenceError
-        If the heat is not finite, or its range is larger than any law of viscosity holds for.
-    """
-    if properties.contains(heat):
-        return properties
+def _check_range(liquid: Liquid, heat: Array, sweeps: int) -> None:
+    """Raise ConvergenceError if the heat is not finite, or beyond the range of all laws of viscosity."""
     capacity = float(np.ravel(liquid.heat(np.array([liquid.temperature]))[1])[0])
     if not np.abs(heat).max() <= LARGEST_RISE * capacity:
         raise ConvergenceError(
@@ -324,7 +314,6 @@ def _containing(liquid: Liquid, properties: OverHeat, heat: Array, sweeps: int) 
             outcome=Outcome.DIVERGED,
             iterations=sweeps,
         )
-    return over_heat(liquid, heat)
 
 
 def _relaxed(

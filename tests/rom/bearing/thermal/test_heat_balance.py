@@ -277,6 +277,21 @@ def test_incomplete_heat_transfer_is_refused(heat, geometry, match):
         solved(geometry, heat=heat)
 
 
+@pytest.mark.parametrize(
+    ("tables", "place"),
+    [
+        ({"supply": [RECESS | {"temperature": "50 degC"}]}, "supply.0"),
+        ({"boundary": {"inlet": {"temperature": "50 degC"}}}, "boundary.inlet"),
+    ],
+)
+def test_entering_lubricant_has_a_temperature_only_with_a_law(tables, place):
+    cold = {name: value for name, value in OIL.items() if name != "thermoviscosity"}
+    entries = {"name": "cold", "kind": "bearing", "geometry": WEDGE, "motion": {"speed": "1 m/s"}} | tables
+    with pytest.raises(InputError, match=rf"{place}.temperature: got one without lubricant.thermoviscosity"):
+        read_scene(entries | {"lubricant": cold})
+    assert read_scene(entries | {"lubricant": OIL}).isothermal().lubricant.thermoviscosity is None
+
+
 def test_it_applies_to_lubricants_with_temperature_alone():
     oil = dict.fromkeys(("heat_capacity", "thermoviscosity"))
     lubricant = {name: value for name, value in OIL.items() if name not in oil}
