@@ -24,6 +24,7 @@ HALF_SPACE = {"kind": "half_space", **STEEL, "density": "7800 kg/m^3", "heat_cap
 
 
 def scene(geometry, lubricant=LUBRICANT, **more):
+    lubricant = {key: one for key, one in lubricant.items() if one is not None}
     entries = {"name": "hot", "kind": "bearing", "geometry": geometry, "lubricant": lubricant}
     return read_scene({**entries, "motion": {"speed": "12 m/s"}, **more})
 
