@@ -44,6 +44,13 @@ RUNAWAY = "lower the speed, the load or the viscosity, or cool the film by more 
 """Remedy of a thermal runaway."""
 
 
+SOFTENING = np.array([2.0, 2.0, 0.0])[:, None, None]
+"""Steps of ln η_p, ln η_s and s by which a film is made less viscous if it has no temperatures."""
+
+SOFTER_FILMS = 6
+"""Largest number of these steps."""
+
+
 class Heated(Protocol):
     """The temperatures of a film, as the energy equation gives them for its flows."""
 
@@ -132,10 +139,11 @@ def coupled(
     Source: Anderson 1965, doi:10.1145/321296.321305; Walker and Ni 2011, doi:10.1137/10078356X.
     """
     memory, changes, hottest = Memory(), [], []
-    heated = near
+    film, heated = _with_temperatures(film, again, heating, near)
     for _ in range(MAX_FILMS):
         solution = film.solution
-        heated = heating(solution, heated)
+        if changes:
+            heated = heating(solution, heated)
         used, following = own_logarithms(solution), logarithms(heated.viscosities)
         changes.append(_mean_size(following - used, solution.grid.areas))
         largest = _size(following - used)
@@ -155,6 +163,25 @@ def coupled(
         outcome=Outcome.STALLED,
         iterations=MAX_FILMS,
     )
+
+
+def _with_temperatures(
+    film: FilmT, again: Callable[[FilmT, Array], FilmT], heating: Heating[HeatedT], near: HeatedT | None
+) -> tuple[FilmT, HeatedT]:
+    """The first film and its temperatures, of less viscosity where too little lubricant flows for any temperature.
+
+    The flow that the pressure of a supply or a side drives grows as the viscosity falls, so that it may carry the heat
+    of a warm film where it does not carry that of a cold one.
+    """
+    first = None
+    for _ in range(SOFTER_FILMS + 1):
+        try:
+            return film, heating(film.solution, near)
+        except ConvergenceError as error:
+            first = first or error
+            film = again(film, own_logarithms(film.solution) - SOFTENING)
+    assert first is not None
+    raise first
 
 
 def _stalls(changes: Sequence[float]) -> bool:
