@@ -14,6 +14,7 @@ from roughfilm.contact.foundation.faults import Fault, faults_of, known_keys, un
 from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity, to_si
 from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.rom.bearing.effects.absent import absent_effects
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.shapes import SHAPES
@@ -252,7 +253,7 @@ def omitted(scene: Bearing, model: Any, quantity: str) -> Omission | None:
 
 
 def missing(scene: Bearing, model: Any) -> float:
-    """The relative change of the load by the effects among inertia and cavitation that a model leaves out."""
+    """The relative change of the load by the effects among inertia, cavitation and heating that a model leaves out."""
     from roughfilm.rom.bearing.omission import missing  # slow to import
 
     return missing(scene, model)
@@ -279,6 +280,12 @@ def in_time(scene: Bearing, within: float) -> InTime | None:
 def window(scene: Bearing) -> Surface | None:
     """The rough surface of one of the walls; None if the roughness is another one."""
     return scene.roughness.read() if isinstance(scene.roughness, RoughSurface) else None
+
+
+def excluded(scene: Bearing) -> str:
+    """The effects that no model of a bearing includes, in words."""
+    heat = ", heat and" if scene.lubricant.lacking else " and"
+    return f"inertia{heat} deformation of the bodies as a whole"
 
 
 def composed(scene: Bearing) -> tuple[str, ...]:
@@ -320,7 +327,8 @@ KIND = Kind(
     columns=columns,
     numbers=bearing_numbers,
     symbols=NUMBERS,
-    excluded="inertia, heat and deformation of the bodies as a whole",
+    excluded=excluded,
+    absent=absent_effects,
     composed=composed,
     variants={"free_bearing": free, "placed_bearing": placed},
     steady=steady,

@@ -66,6 +66,11 @@ def within_laws(_scene: Any, _result: Any, _quantity: str) -> str:
     return ""
 
 
+def nothing_absent(_scene: Any) -> frozenset[str]:
+    """Return no effects, for kinds whose models keep no effect that one of their scenes lacks."""
+    return frozenset()
+
+
 def nothing_composed(_scene: Any) -> tuple[str, ...]:
     """Return no lines, for kinds whose scenes are not composed of effects."""
     return ()
@@ -161,7 +166,8 @@ class Kind:
     symbols : the symbols of these numbers.
     window : window(scene), the rough surface that stands for a larger one; None if a scene has none.
     composed : composed(scene), a line on the model of each effect of a scene, with its reason.
-    excluded : the effects that no model of the kind includes, in words.
+    excluded : the effects that no model of the kind includes, in words, or excluded(scene), which returns them.
+    absent : absent(scene), the effects that the scene does not have, although models that solve it keep them.
     steady : steady(scene), the scene at the time by which models are judged, such as that of its largest load.
     without_time : without_time(scene), the scene without what changes in time, which a model solves.
     in_time : in_time(scene, within), what a motion in time means for a tolerance; None for a scene that is steady.
@@ -183,7 +189,7 @@ class Kind:
     columns: Callable[[Any], Mapping[str, Quantity | str]]
     numbers: Callable[[Any], Mapping[str, float]]
     symbols: Mapping[str, str]
-    excluded: str
+    excluded: str | Callable[[Any], str]
     others: Mapping[str, str] = field(default_factory=dict)
     reported: Mapping[str, str] = field(default_factory=dict)
     remarks: Callable[[Mapping[str, Any], Mapping[str, Quantity]], Sequence[str]] = nothing_remarked
@@ -198,6 +204,7 @@ class Kind:
     steady: Callable[[Any], Any] = as_given
     without_time: Callable[[Any], Any] = as_given
     in_time: Callable[[Any, float], InTime | None] = unchanging
+    absent: Callable[[Any], frozenset[str]] = nothing_absent
     omitted: Callable[[Any, Any, str], Omission | None] = nothing_omitted
     missing: Callable[[Any, Any], float] = nothing_missing
     outside_laws: Callable[[Any, Any, str], str] = within_laws
@@ -212,6 +219,10 @@ class Kind:
     def titles(self) -> Mapping[str, str]:
         """The names in a sentence of all quantities, the compared ones first."""
         return {**self.compared, **self.others}
+
+    def excluded_from(self, scene: Scene) -> str:
+        """The effects that no model of the kind includes for a scene, in words."""
+        return self.excluded if isinstance(self.excluded, str) else self.excluded(scene)
 
     def listed(self, result: Result) -> dict[str, str]:
         """The names and titles of the quantities of a result that people read, in the order in which they read them.
