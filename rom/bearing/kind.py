@@ -159,6 +159,10 @@ NUMBERS = {
     "squeeze_number": "2VL/(uh)",
     "reynolds_number": "Re",
     "reduced_reynolds_number": "Re·h/L",
+    "heating_number": "βΔT without heat to the walls",
+    "thermal_peclet_number": "ρcuh²/(kL)",
+    "nahme_number": "βηu²/k",
+    "brinkman_number": "ηu²/(kΔT of a wall)",
 }
 """The symbols of the dimensionless numbers; p = 6ηuL/h², p_B = p/(1 + (L/B)²) plus the largest pressure at an edge."""
 
@@ -290,9 +294,11 @@ def excluded(scene: Bearing) -> str:
 
 def composed(scene: Bearing) -> tuple[str, ...]:
     """A line for each effect with its model and the reason, and one for the film under a load."""
-    from roughfilm.rom.bearing.effects.explanation import effect_models  # slow to import
+    from roughfilm.rom.bearing.effects.explanation import effect_models, heating_words  # slow to import
 
     lines = [f"{one.effect}: {one.model}, {one.why}" for one in effect_models(scene)]
+    if (heating := heating_words(scene)) is not None:
+        lines.append(heating)
     if scene.load is not None:
         film, given = expected_scene(scene).geometry.thinnest, scene.geometry.film
         first = "" if given is None else f"; the given film of {given:.3g} m is the first value of the search"
@@ -346,6 +352,7 @@ KIND = Kind(
             ("lubricant", "thermoviscosity", "points"),
             ("lubricant", "thermoviscosity", "table"),
             ("lubricant", "heat_capacity", "table"),
+            ("asperities", "friction", "table"),
             *(("motion", "over_time", name) for name in COLUMNS_OVER_TIME),
         }
     ),
@@ -377,6 +384,8 @@ KIND = Kind(
         ),
         "lubricant.heat_capacity.constant": ("table",),
         "lubricant.heat_capacity.table": ("constant",),
+        "asperities.friction.constant": ("table",),
+        "asperities.friction.table": ("constant",),
         "roughness.kind": (
             "amplitude",
             "wavelength",

@@ -49,6 +49,19 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
         infinite at rest. In the numbers above and below u + 2VL/h then takes the place of u.
     reynolds_number : ρuh/η, if the density is given.
     reduced_reynolds_number : ρuh²/(ηl), if the density is given; l is the shortest feature along the sliding direction.
+
+    Scenes with a temperature (:attr:`roughfilm.rom.bearing.lubricant.BearingLubricant.liquid`) have the following, too,
+    with β = -(dη/dT)/η of the supplied lubricant, and L the length of one lobe or pad:
+
+    heating_number : β times the temperature at which the lubricant would leave, above that at which it enters, if its
+        viscosity stayed and the walls took no heat: F u/(ρ c q) of an infinitely wide film that narrows linearly. It
+        is βηuL/(ρch²) times a factor of 2 of a parallel film and about 1 of a film that narrows much.
+    thermal_peclet_number : ρcuh²/(kL): how far heat is carried along the film, over its length, while it is conducted
+        across it. If the conductivity is given.
+    nahme_number : βηu²/k: β times the heating of a film between walls of one temperature, times 8. If the conductivity
+        is given.
+    brinkman_number : ηu²/(kΔT) with the largest difference ΔT between a given temperature of a wall and the supplied
+        lubricant; only if there is one.
     """
     scene = expected_scene(scene)
     geometry, lubricant, roughness = scene.geometry, scene.lubricant, scene.roughness
@@ -86,7 +99,60 @@ def bearing_numbers(scene: Bearing) -> Mapping[str, float]:
         number = lubricant.density * speed * film / lubricant.viscosity
         numbers["reynolds_number"] = number
         numbers["reduced_reynolds_number"] = number * film / min(finest, length)
-    return numbers
+    return numbers | _thermal(scene, numbers)
+
+
+def _thermal(scene: Bearing, numbers: Mapping[str, float]) -> dict[str, float]:
+    """The numbers of the temperature, of scenes that have one."""
+    if scene.lubricant.lacking:
+        return {}
+    geometry, liquid, speed = scene.geometry, scene.lubricant.liquid, scene.equivalent_speed
+    film, length = geometry.thinnest, geometry.length
+    if isinstance(geometry, Lobes):
+        length = geometry.radius * geometry.turn
+    supplied = np.array([liquid.temperature])
+    viscosity, slope = (float(one[0]) for one in liquid.viscosity(supplied))
+    capacity = float(liquid.heat(supplied)[1][0])
+    coefficient = -slope / viscosity
+    heating = coefficient * viscosity * speed * length / (capacity * film**2)
+    filled = min(numbers.get("starvation", 1.0), 1.0)
+    found = {"heating_number": heating * linear_heating(numbers["thickness_ratio"]) / filled}
+    if math.isnan(liquid.conductivity):
+        return found
+    found["thermal_peclet_number"] = capacity * speed * film**2 / (liquid.conductivity * length)
+    found["nahme_number"] = coefficient * viscosity * speed**2 / liquid.conductivity
+    difference = _difference_of_walls(scene, liquid.temperature)
+    if difference:
+        found["brinkman_number"] = viscosity * speed**2 / (liquid.conductivity * difference)
+    return found
+
+
+def linear_heating(ratio: float) -> float:
+    """The adiabatic rise of the temperature of a film that narrows linearly, over ηuL/(ρch²), h at its outlet.
+
+    It is F u/(ρ c q) of constant viscosity, with a = h1/h: (1 + a)/a (4 ln a - 6 (a - 1)/(a + 1))/(a - 1), and 2 for
+    a = 1.
+
+    Parameters
+    ----------
+    ratio : film thickness at the inlet over that at the outlet a, at least 1.
+
+    Examples
+    --------
+    >>> round(linear_heating(1.0), 6), round(linear_heating(2.0), 6)
+    (2.0, 1.158883)
+    """
+    fall = ratio - 1
+    friction = (4 * math.log1p(fall) - 6 * fall / (2 + fall)) / fall if fall > 0 else 1.0
+    return (1 + ratio) / ratio * friction
+
+
+def _difference_of_walls(scene: Bearing, supplied: float) -> float:
+    """The largest difference between a given temperature of a wall and that of the supplied lubricant, K."""
+    if scene.heat is None:
+        return 0.0
+    given = [getattr(wall, "temperature", None) for wall in (scene.heat.fixed_wall, scene.heat.sliding_wall)]
+    return max((abs(one - supplied) for one in given if one is not None), default=0.0)
 
 
 def _pressed(scene: Bearing, pressure: float) -> tuple[float, float]:

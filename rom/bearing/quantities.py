@@ -65,7 +65,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     pressure = solution.state.pressure + pc
     width = 1.0 if problem.shape.wide else scene.geometry.width or 1.0
     force = grid.areas * pressure if pressed is None else grid.areas * pressure + pressed
-    boundary = 0.0 if pressed is None or scene.asperities is None else scene.asperities.friction * pressed.sum(axis=0)
+    boundary = 0.0 if pressed is None else scene.boundary_friction * pressed.sum(axis=0)
     drag = drag_of_rows(solution)
     rows = drag.rows + boundary
     load, resistance = load_of(scene, scene_positions(solution), force), float(rows.sum() + drag.between.sum())

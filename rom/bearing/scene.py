@@ -344,6 +344,10 @@ class Bearing(Scene):
             raise ValueError("load.moment_x: got one for a pivot with line = true, which takes it; leave it out")
 
     def _can_touch(self, asperities: AsperityContact) -> None:
+        try:
+            asperities.friction_at(self.lubricant.temperature)
+        except InputError as error:
+            raise ValueError(str(error)) from None
         if not isinstance(self.roughness, RoughSurface | StoredTable):
             got = "smooth walls" if self.roughness is None else "sinusoidal ridges"
             raise ValueError(f"asperities: got a table for {got}; give a surface or a table as roughness")
@@ -438,6 +442,17 @@ class Bearing(Scene):
         lubricant = self.lubricant.model_copy(update={"thermoviscosity": None})
         update = {"lubricant": lubricant, "heat": None, "supply": supply, "boundary": boundary}
         return self.model_copy(update=update)
+
+    @property
+    def boundary_friction(self) -> float:
+        """The coefficient of boundary friction at the temperature of the lubricant; 0 without asperities.
+
+        Raises
+        ------
+        InputError
+            If that temperature lies outside of the table of the coefficient.
+        """
+        return 0.0 if self.asperities is None else self.asperities.friction_at(self.lubricant.temperature)
 
     @property
     def turning_radius(self) -> float | None:

@@ -79,7 +79,7 @@ def write_page(
         windows=_windows(entries),
         unit=unit,
         own=f"{factor * abs(scene.motion.speed):.4g} {unit}",
-        friction=scene.asperities.friction if scene.asperities is not None else 0.0,
+        friction=scene.boundary_friction,
         answers=[_answer(scene, curve, scale) for curve in curves],
         shown=f"{middle.pressure / 1e6:.4g} MPa",
         columns=columns,

@@ -171,7 +171,7 @@ def sample_of(key: str, node: Node) -> object:
         return node["enum"][0]
     if key in _values():
         return _values()[key]
-    return f"1 {node[UNIT]}" if UNIT in node else "..." if node.get("type") == "string" else 1
+    return optional.get(node[UNIT], f"1 {node[UNIT]}") if UNIT in node else "..." if node.get("type") == "string" else 1
 
 
 @cache

@@ -88,6 +88,10 @@ def _or_heat_capacity(_generator: _SceneSchema, inner: dict[str, Any]) -> dict[s
     return {"anyOf": [quantity(InUnit("J/(kg*K)")), inner]}
 
 
+def _or_number(_generator: _SceneSchema, inner: dict[str, Any]) -> dict[str, Any]:
+    return {"anyOf": [{"type": "number"}, inner]}
+
+
 def _or_one(_generator: _SceneSchema, inner: dict[str, Any]) -> dict[str, Any]:
     return {"anyOf": [inner["prefixItems"][0], inner]}
 
@@ -98,6 +102,7 @@ _ALSO: Mapping[str, Callable[[_SceneSchema, dict[str, Any]], dict[str, Any]]] = 
     "checked": _or_text,
     "rows": _or_text,
     "_constant": _or_heat_capacity,
+    "_number_or_table": _or_number,
     "_described": _SceneSchema._of_surface,
 }
 """What a file may hold in other forms than that of the class, by the function that reads it."""

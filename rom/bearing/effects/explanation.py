@@ -1,7 +1,10 @@
 """The model of each effect of a bearing and the reason, with the dimensionless numbers."""
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+
+import numpy as np
 
 from roughfilm.rom.bearing.effects.ablation import effects_of
 from roughfilm.rom.bearing.effects.inertia import FIRST_ORDER, FULL, inertia_obstacle
@@ -17,6 +20,13 @@ SMALL_REDUCED_REYNOLDS_NUMBER = 0.3
 
 SLOPE = "to second order, film_slope minus film; not included in the load of the film"
 """The reason for the model of slope."""
+
+CONDUCTION = (
+    (1.0, "reaches across"),
+    (10.0, "reaches a part of the way across"),
+    (math.inf, "hardly reaches into"),
+)
+"""How far heat is conducted into the film while it passes, below a Péclet number."""
 
 SMALL_PERIOD_RATIO = 0.1
 """Period of the roughness over the length below which the error of averaging is a few per cent."""
@@ -57,6 +67,35 @@ def effect_models(scene: Bearing, *, full: bool | None = None) -> tuple[EffectMo
         *models,
         EffectModel(effect="inertia", model=FULL, why=_full_inertia(numbers)),
         EffectModel(effect="slope", model="film_slope", why=SLOPE),
+    )
+
+
+def heating_words(scene: Bearing) -> str | None:
+    """What friction does to the temperature of the film, by its numbers; None of a scene without temperature.
+
+    Without heat to the walls the lubricant of the viscosity η exp(-β T) is heated by ln(1 + N)/β with the heating
+    number N; between walls at its temperature by ln(1 + Na/8)/β at most, with the Nahme number Na.
+    """
+    numbers = bearing_numbers(scene)
+    if "heating_number" not in numbers:
+        return None
+    liquid = scene.lubricant.liquid
+    viscosity, slope = (float(one[0]) for one in liquid.viscosity(np.array([liquid.temperature])))
+    coefficient, heating = -slope / viscosity, numbers["heating_number"]
+    if coefficient <= 0 or heating == 0:
+        return "heating: friction does not change the viscosity"
+    words = (
+        f"heating: friction heats the film by about {math.log1p(heating) / coefficient:.2g} K while it passes, if the "
+        f"walls take no heat, and its viscosity falls by {heating / (1 + heating):.0%}"
+    )
+    if "thermal_peclet_number" not in numbers:
+        return words
+    peclet = numbers["thermal_peclet_number"]
+    reaches = next(reach for below, reach in CONDUCTION if peclet < below)
+    walls = math.log1p(numbers["nahme_number"] / 8) / coefficient
+    return (
+        f"{words}; conduction {reaches} it (Péclet number {peclet:.2g}), and walls at the temperature of the supplied "
+        f"lubricant would leave {walls:.2g} K at most"
     )
 
 

@@ -277,7 +277,7 @@ class Observer:
         force = film.contact_at(instant.place).force
         found = asperity_load(film.shape(instant.place), film.grid, self.asperities)
         load = float(np.hypot(*force[:2])) if self.duty.lobes else float(force[0])
-        rubbed = scene.asperities.friction * found.force.sum(axis=0)
+        rubbed = scene.boundary_friction * found.force.sum(axis=0)
         return [force], rubbed, [load, found.pressure_max, found.area_fraction]
 
     def _friction(self, solution: Solution, rubbed: Array | float) -> tuple[float, float, float]:

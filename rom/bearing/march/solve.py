@@ -365,7 +365,7 @@ def _with_walls(
     relative = dict.fromkeys(quantities, of_factors)
     relative |= {name: of_contact for name in quantities if name.startswith("contact")}
     if duty.scene.asperities is not None and quantities["friction_mean"].value:
-        boundary = duty.scene.asperities.friction * quantities["contact_load_mean"].value
+        boundary = duty.scene.boundary_friction * quantities["contact_load_mean"].value
         share = min(abs(boundary / quantities["friction_mean"].value), 1.0)
         relative |= dict.fromkeys(FRICTIONS & quantities.keys(), of_factors + share * of_contact)
     more = {name: abs(quantities[name].value) * part if part else 0.0 for name, part in relative.items()}

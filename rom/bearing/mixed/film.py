@@ -202,7 +202,7 @@ def mixed_problem(scene: Bearing, asperities: Asperities) -> Problem:
 
 def mixed_state(scene: Bearing, solution: Solution, contact: AsperityLoad) -> MixedState:
     """The mixed film with its loads and friction, from the film and the contact of its asperities."""
-    boundary = 0.0 if scene.asperities is None else scene.asperities.friction
+    boundary = scene.boundary_friction
     x = scene_positions(solution)
     film = solution.grid.areas * (solution.state.pressure + scene.lubricant.cavitation_pressure)
     return MixedState(

@@ -10,9 +10,9 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.equilibrium.expected import expected_film
 from roughfilm.rom.bearing.equilibrium.grids import LOAD_TOLERANCE
 from roughfilm.rom.bearing.film import Searched
+from roughfilm.rom.bearing.flash import FLASH, flash_temperature, flash_warnings
 from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load
 from roughfilm.rom.bearing.mixed.film import MixedFilm, mixed_problem
-from roughfilm.rom.bearing.mixed.flash import FLASH, flash_temperature, flash_warnings
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.quantities import Fields, Outputs, bearing_quantities, load_of, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
@@ -43,7 +43,7 @@ def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
     load, ``contact_pressure_max`` an average over the roughness, ``contact_area`` a fraction of the nominal area, and
     ``least_gap`` the mean gap at the narrowest place. ``flash_temperature``, of scenes with ``asperities.solid_heat``,
     estimates how much hotter the spots in contact are at the largest contact pressure, between
-    ``flash_temperature_low`` and ``flash_temperature_high`` (:func:`roughfilm.rom.bearing.mixed.flash.rise_of_spots`).
+    ``flash_temperature_low`` and ``flash_temperature_high`` (:func:`roughfilm.rom.bearing.flash.rise_of_spots`).
     """
     assert scene.asperities is not None
     contact = _contact(scene, solution)
@@ -63,7 +63,7 @@ def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
         values |= {"contact_load": (pressed, "N"), "film_load": (load - pressed, "N")}
     if "friction_coefficient" in quantities:
         values["contact_share"] = (pressed / load, "1")
-    flash = flash_temperature(scene, contact.pressure_max, scene.asperities.friction)
+    flash = flash_temperature(scene, contact.pressure_max, scene.boundary_friction)
     if flash is not None:
         values |= dict(zip(FLASH, ((flash.mean, "K"), (flash.low, "K"), (flash.high, "K")), strict=True))
     return quantities | {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
@@ -80,7 +80,7 @@ def mixed_uncertainties(scene: Bearing, solution: Solution, quantities: Mapping[
     load = film_load + contact_load or 1.0
     pressed = min(of_contact * contact_load, load) / load
     of_both = of_film * film_load / load + pressed
-    boundary = scene.asperities.friction * contact_load
+    boundary = scene.boundary_friction * contact_load
     friction = quantities["friction_per_width"].value
     of_shear = of_film + asperities.friction_uncertainty(narrowest)
     of_friction = (of_shear * abs(friction - boundary) + of_contact * boundary) / (abs(friction) or 1.0)
@@ -110,7 +110,7 @@ def mixed_warnings(scene: Bearing, solution: Solution) -> list[str]:
     """Warnings about a flash temperature outside of the range of its estimate."""
     assert scene.asperities is not None
     pressure = _contact(scene, solution).pressure_max
-    flash = flash_temperature(scene, pressure, scene.asperities.friction)
+    flash = flash_temperature(scene, pressure, scene.boundary_friction)
     return [] if flash is None else flash_warnings(scene, pressure, flash)
 
 

@@ -356,7 +356,7 @@ def uncertainties(point: StribeckPoint, other: StribeckPoint, search: Search, sl
     Errors of the flow factors change the heat and the flows, and so the temperature T by up to twice their part of its
     rise, which changes the load of the film by |d ln η/dT| δT.
     """
-    asperities, here, contacts = search.asperities, np.array([point.separation]), search.scene.asperities
+    asperities, here = search.asperities, np.array([point.separation])
     film, contact = point.film_load, point.contact_load
     relative_factors = asperities.factor_uncertainty(point.separation) + slopes.left_out
     of_temperature = 0.0
@@ -372,7 +372,7 @@ def uncertainties(point: StribeckPoint, other: StribeckPoint, search: Search, sl
     slope = slopes.film + slopes.contact
     of_separation = (film_error + contact_error) / slope if slope > 0 else 0.0
     of_loads = (film_error * slopes.contact + contact_error * slopes.film) / slope if slope > 0 else 0.0
-    boundary = 0.0 if contacts is None else contacts.friction
+    boundary = search.scene.boundary_friction
     viscous = abs(point.friction - boundary * contact)
     relative_shear = asperities.friction_uncertainty(point.separation)
     of_friction = boundary * of_loads + (relative_factors + relative_shear + of_separation / slopes.length) * viscous

@@ -139,5 +139,5 @@ def _touching(scene: Bearing, value: dict[str, float], field: dict[str, Array]) 
     if (contact > 0) != (value["contact_area"] > 0):
         yield f"a contact load of {contact:.6g} N/m on an area of {value['contact_area']:.6g}"
     ambient = scene.boundary == type(scene.boundary)() and not isinstance(scene.geometry, Journal)
-    if ambient and scene.motion.speed > 0 and value["friction_per_width"] < scene.asperities.friction * contact:
+    if ambient and scene.motion.speed > 0 and value["friction_per_width"] < scene.boundary_friction * contact:
         yield f"friction {value['friction_per_width']:.6g} N/m is less than that of the asperities alone"

@@ -3,12 +3,15 @@
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 
-from roughfilm.rom.bearing.kind import columns
+from roughfilm.rom.bearing.kind import columns, composed
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.rom.temperature.closed_forms.couette import adiabatic_couette
+from roughfilm.rom.temperature.closed_forms.slider import adiabatic_slider
 
 PAD: dict[str, Any] = {
     "name": "pad",
@@ -126,3 +129,60 @@ def test_the_table_of_cases_has_the_same_numbers() -> None:
     assert not isinstance(entries["roughness_ratio"], str)
     assert entries["width_ratio"].value == pytest.approx(numbers["slenderness"])
     assert entries["roughness_ratio"].value == pytest.approx(numbers["roughness_ratio"])
+
+
+HOT: dict[str, Any] = {
+    "viscosity": "0.05 Pa*s",
+    "temperature": "40 degC",
+    "thermoviscosity": {"law": "exponential", "temperature_coefficient": "0.03 1/K"},
+    "density": "850 kg/m^3",
+    "heat_capacity": "2000 J/(kg*K)",
+    "conductivity": "0.14 W/(m*K)",
+}
+THERMAL = {"heating_number", "thermal_peclet_number", "nahme_number", "brinkman_number"}
+
+
+def test_a_film_with_temperature_has_the_numbers_of_its_heat() -> None:
+    walls = {"fixed_wall": {"kind": "temperature", "temperature": "60 degC"}, "sliding_wall": "adiabatic"}
+    numbers = bearing_numbers(scene(lubricant=HOT, heat=walls))
+    assert numbers["thermal_peclet_number"] == pytest.approx(850 * 2000 * 2 * 5e-6**2 / (0.14 * 20e-3))
+    assert numbers["nahme_number"] == pytest.approx(0.03 * 0.05 * 2**2 / 0.14)
+    assert numbers["brinkman_number"] == pytest.approx(0.05 * 2**2 / (0.14 * 20))
+    rise = 0.05 * 2 * 20e-3 / (850 * 2000 * 5e-6**2)
+    friction, flow = (4 * math.log(3) - 6 * 2 / 4) / 2, 3 / 4  # over ηuL/h and uh
+    assert numbers["heating_number"] == pytest.approx(0.03 * rise * friction / flow)
+
+
+def test_the_heating_number_predicts_the_adiabatic_wedge() -> None:
+    for rise in (0.0, 1e-6, 20e-6):
+        shape = scene(lubricant=HOT, geometry={"rise": f"{rise or 1e-12} m"})
+        number = bearing_numbers(shape)["heating_number"]
+        liquid = {"film": 5e-6, "speed": 2.0, "viscosity": 0.05, "temperature": 0.0, "temperature_coefficient": 0.03}
+        if rise:
+            exact = adiabatic_slider(rise=rise, length=20e-3, heat_per_volume=1.7e6, **liquid).outlet_temperature
+        else:
+            exact = float(adiabatic_couette(np.array(20e-3), heat_per_volume=1.7e6, **liquid))
+        assert math.log1p(number) / 0.03 == pytest.approx(exact, rel=0.04)
+
+
+@pytest.mark.parametrize("missing", ["thermoviscosity", "density", "heat_capacity"])
+def test_a_film_without_a_temperature_has_none_of_them(missing: str) -> None:
+    lubricant = {key: value for key, value in HOT.items() if key != missing}
+    assert not THERMAL & bearing_numbers(scene(lubricant=lubricant)).keys()
+
+
+def test_without_a_conductivity_only_the_heating_is_known() -> None:
+    lubricant = {key: value for key, value in HOT.items() if key != "conductivity"}
+    assert THERMAL & bearing_numbers(scene(lubricant=lubricant)).keys() == {"heating_number"}
+
+
+def test_the_words_say_how_hot_the_film_becomes_and_how_far_conduction_reaches() -> None:
+    (thin,) = (line for line in composed(scene(lubricant=HOT)) if line.startswith("heating"))
+    assert "conduction reaches across it (Péclet number 0.03)" in thin
+    thick = scene(lubricant=HOT, geometry={"film": "100 um"}, motion={"speed": "10 m/s"})
+    (line,) = (line for line in composed(thick) if line.startswith("heating"))
+    numbers = bearing_numbers(thick)
+    rise = math.log1p(numbers["heating_number"]) / 0.03
+    assert f"friction heats the film by about {rise:.2g} K while it passes" in line
+    assert "conduction hardly reaches into it (Péclet number 61)" in line
+    assert not any(line.startswith("heating") for line in composed(scene()))

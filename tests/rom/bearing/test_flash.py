@@ -8,7 +8,7 @@ import pytest
 import roughfilm as rf
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.press import Press
-from roughfilm.rom.bearing.mixed.flash import Spots, flash_temperature, flash_warnings, rise_of_spots, spots_of
+from roughfilm.rom.bearing.flash import Spots, flash_temperature, flash_warnings, rise_of_spots, spots_of
 from roughfilm.rom.parts.solids import HeatConductor
 from roughfilm.rom.temperature.closed_forms.moving_sources import moving_circle, resting_circle
 
