@@ -4,13 +4,22 @@ import math
 from typing import Annotated, Any, Self, cast
 
 import numpy as np
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import (
+    BeforeValidator,
+    Field,
+    SerializationInfo,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+    model_validator,
+)
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import to_si, with_unit
 from roughfilm.rom.lubricants.compressibility import Incompressible
 from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity, Thermoviscosity
+from roughfilm.rom.lubricants.library import EXPANSION, entries_of, found_name
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.lubricants.shear_thinning import ShearThinning
 from roughfilm.rom.lubricants.thermal.law import AbsoluteLaw, AnchoredLaw, Supplied, Temperature, celsius
@@ -28,9 +37,6 @@ Conductivity = Annotated[float, InUnit("W/(m*K)")]
 AGREEMENT = 1e-3
 """Relative difference up to which a given viscosity agrees with that of a law."""
 
-EXPANSION_OF_OILS = 0.6278
-"""Coefficient of thermal expansion of lubricating oils times their density, kg/(m³ K): ASTM D1250, table 54D."""
-
 
 def _law(entries: Any) -> Any:
     """The table of a law; a law without parameters may be given by its name alone."""
@@ -41,10 +47,13 @@ class BearingLubricant(Fluid):
     """The lubricant of a bearing.
 
     Over temperature its density is ρ exp(-α (T - T₀)), and its viscosity that of the law ``thermoviscosity``, at the
-    cavitation pressure. Laws that give the viscosity itself determine ``viscosity``, which may then be left out.
+    cavitation pressure. Laws that give the viscosity itself determine ``viscosity``, which may then be left out. A name
+    in the library (:mod:`roughfilm.rom.lubricants.library`) determines the keys of heat and temperature that are not
+    given.
 
     Attributes
     ----------
+    oil : name of the liquid in the library, such as "ISO VG 32".
     viscosity : viscosity at cavitation pressure, Pa s.
     density : density, kg/m³, needed only for inertia, for a ram pressure, for heat and for a kinematic viscosity.
     cavitation_pressure : cavitation pressure above ambient, Pa.
@@ -59,6 +68,7 @@ class BearingLubricant(Fluid):
     shear_thinning : law of the viscosity over the shear rate, which models with shear thinning use.
     """
 
+    oil: str | None = None
     viscosity: Viscosity = cast(float, None)
     density: Density | None = None
     cavitation_pressure: GaugePressure = 0.0
@@ -74,6 +84,45 @@ class BearingLubricant(Fluid):
     )
     thermoviscosity: Annotated[Thermoviscosity, Field(discriminator="law")] | None = None
     shear_thinning: Annotated[ShearThinning, Field(discriminator="law")] | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_the_library(cls, entries: Any) -> Any:
+        """The entries with those of the oil that are not given."""
+        if not isinstance(entries, dict) or entries.get("oil") is None:
+            return entries
+        try:
+            name = found_name(entries["oil"])
+        except ValueError as error:
+            raise ValueError(f"oil: {error}") from None
+        if entries.get("temperature") is None:
+            raise ValueError(
+                'temperature: missing; with oil give the temperature of the supplied lubricant, such as "40 degC"'
+            )
+        try:
+            temperature = to_si(entries["temperature"], "K")
+        except ValueError:
+            return entries  # its field reports the fault
+        given = {key: value for key, value in entries.items() if value is not None}
+        return {**entries_of(name, temperature), **given, "oil": name}
+
+    @model_serializer(mode="wrap")
+    def _entries(self, handler: SerializerFunctionWrapHandler, info: SerializationInfo) -> dict[str, Any]:
+        """The entries; without those that oil, temperature and law determine if the context asks for those given."""
+        entries: dict[str, Any] = handler(self)
+        if not (info.context or {}).get("given"):
+            return entries
+        return {key: value for key, value in entries.items() if key not in self._determined}
+
+    @property
+    def _determined(self) -> frozenset[str]:
+        """The keys whose values are those that oil, temperature and law determine."""
+        law = frozenset({"viscosity"} if isinstance(self.thermoviscosity, AbsoluteLaw) else ())
+        if self.oil is None or self.temperature is None:
+            return law
+        alone = type(self).model_validate({"oil": self.oil, "temperature": with_unit(self.temperature, "K")})
+        keys = ("thermoviscosity", "density", "thermal_expansion", "heat_capacity", "conductivity")
+        return law | {key for key in keys if getattr(self, key) == getattr(alone, key)}
 
     @model_validator(mode="after")
     def _has_a_viscosity(self) -> Self:
@@ -126,7 +175,7 @@ class BearingLubricant(Fluid):
             return self.thermal_expansion
         law = self.thermoviscosity
         kinematic = isinstance(law, AbsoluteLaw) and law.kinematic
-        return EXPANSION_OF_OILS / self.density if kinematic and self.density is not None else 0.0
+        return EXPANSION / self.density if kinematic and self.density is not None else 0.0
 
     def density_at(self, temperature: Array) -> tuple[Array, Array]:
         """The density ρ, kg/m³, and dρ/dT; shape of ``temperature``, K; InputError without a density."""

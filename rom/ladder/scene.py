@@ -99,6 +99,11 @@ def scene_entries(scene: Scene) -> dict[str, Any]:
     return scene.model_dump(mode="json", exclude_none=True)
 
 
+def given_entries(scene: Scene) -> dict[str, Any]:
+    """The entries of a scene, to change some: without those that others determine, such as the density of an oil."""
+    return scene.model_dump(mode="json", exclude_none=True, context={"given": True})
+
+
 def _seek_files(entry: Any, directory: Path, keys: frozenset[str], kept: frozenset[str]) -> None:
     """Put the directory before every name of a file that is neither absolute nor begins with "~"."""
 

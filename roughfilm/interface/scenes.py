@@ -132,7 +132,7 @@ def replace(scene: Scene, key: str | Mapping[str, object], value: object = ...) 
 def with_entries(scene: Scene, values: Mapping[str, object]) -> Scene:
     """The scene with new values at dotted keys; InputError if a key is unknown or a value is out of range."""
     replaces = kind_of_name(checked_scene(scene).kind).replaces
-    entries = scenes.scene_entries(scene)
+    entries = scenes.given_entries(scene)
     for key, value in values.items():
         if not isinstance(key, str) or "=" in key:
             raise InputError(f"key: got {key!r:.60}; give a dotted key such as 'geometry.depth'")

@@ -16,9 +16,9 @@ from roughfilm.rom.bearing.thermal.exchange import Exchange, Temperatures, colde
 from roughfilm.rom.bearing.thermal.isothermal import isothermal_model
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.model import Model, Progress
-from roughfilm.rom.ladder.provenance import scene_entries
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.lubricants.liquid import Liquid
 
 TEMPERATURE_TOLERANCE = 1e-5
@@ -217,6 +217,10 @@ def _effective(result: Result) -> float:
     return result.quantities[EFFECTIVE].value + ZERO_CELSIUS
 
 
+def _effective_of(film: Callable[..., Result], cells: int, temperature: float) -> float:
+    return _effective(film(temperature, cells))
+
+
 def _sizes(solver: Model[Bearing], scene: Bearing, cells: int) -> list[int]:
     """Numbers of cells from the coarse grid to the finest one."""
     return [size for size in solver.offered(scene).series if size < cells] + [cells]
@@ -230,7 +234,7 @@ def _on_coarse_grid(film: Callable[..., Result], scene: Bearing, sizes: list[int
         tolerance = TEMPERATURE_TOLERANCE / 4 if last else COARSE_TOLERANCE
         try:
             found = balanced(
-                lambda at, cells=cells: _effective(film(at, cells)),
+                partial(_effective_of, film, cells),
                 supplied,
                 coldest=coldest(scene, supplied),
                 tolerance=tolerance,

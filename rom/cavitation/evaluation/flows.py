@@ -35,14 +35,23 @@ def flow_across(solution: Solution) -> Array:
     return np.asarray(flow if net.oblique is None else flow + _oblique_flows(solution)[1])
 
 
+def stored_flow(solution: Solution) -> Array:
+    """The flow that the nodes store where the walls move, m³/s at cavitation density, shape (nx, ny)."""
+    net, excess = solution.network, solution.problem.compression(solution.state.pressure)[0]
+    return np.asarray(net.storage * (solution.state.fill + excess) - net.stored)
+
+
 def node_balances(solution: Solution) -> Array:
     """Outflow minus inflow of every node with what it stores, m³/s: at a fixed node what enters from outside."""
+    return balances(solution, flow_along(solution), flow_across(solution))
+
+
+def balances(solution: Solution, along: Array, across: Array) -> Array:
+    """The balances of the nodes with flows through the faces, m³/s; sets those behind the last nodes to 0."""
     net = solution.network
-    along, across = flow_along(solution), flow_across(solution)
-    excess = solution.problem.compression(solution.state.pressure)[0]
-    stored = net.storage * (solution.state.fill + excess) - net.stored
     if not net.periodic[0]:
         along[-1] = 0.0
     if not net.periodic[1]:
         across[:, -1] = 0.0
-    return np.asarray(along - np.roll(along, 1, axis=0) + across - np.roll(across, 1, axis=1) + stored)
+    outflow = along - np.roll(along, 1, axis=0) + across - np.roll(across, 1, axis=1)
+    return np.asarray(outflow + stored_flow(solution))

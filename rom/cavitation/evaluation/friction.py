@@ -47,21 +47,26 @@ def drag_of_rows(solution: Solution, *, halved: bool = False) -> Drag:
     halved : whether the lowest row is the middle of a symmetric film, whose other half is not counted.
     """
     grid, rough = solution.grid, solution.faces.averaged
-    along = (grid.volume_y * _pull(solution, halved=halved)).sum(axis=0)
+    along = (grid.volume_y * pull_along(solution, halved=halved)).sum(axis=0)
     if rough is None or grid.shape[1] == 1:
         return Drag(rows=along, between=np.zeros(grid.shape[1] - 1))
-    climb = solution.state.pressure[:, 1:] - solution.state.pressure[:, :-1]
-    across = grid.volume_x[:, None] * radius_between(grid) * rough.drag_across[:, :-1] / 2 * climb
-    return Drag(rows=along, between=across.sum(axis=0))
+    return Drag(rows=along, between=pull_across(solution, rough).sum(axis=0))
 
 
 def wall_stress(solution: Solution) -> Array:
     """The stress on the sliding wall against its motion at the faces towards i + 1, Pa; 0 behind the last node."""
-    pull, lengths = _pull(solution), solution.grid.spacing_x[:, None] * solution.grid.radius
+    pull, lengths = pull_along(solution), solution.grid.spacing_x[:, None] * solution.grid.radius
     return np.divide(pull, lengths, out=np.zeros_like(pull), where=lengths > 0)
 
 
-def _pull(solution: Solution, *, halved: bool = False) -> Array:
+def pull_across(solution: Solution, rough: Averaged) -> Array:
+    """The force on the sliding wall by the pressure gradient across the faces towards j + 1, N, shape (nx, ny - 1)."""
+    grid, pressure = solution.grid, solution.state.pressure
+    climb = pressure[:, 1:] - pressure[:, :-1]
+    return np.asarray(grid.volume_x[:, None] * radius_between(grid) * rough.drag_across[:, :-1] / 2 * climb)
+
+
+def pull_along(solution: Solution, *, halved: bool = False) -> Array:
     """The force per width on the sliding wall between the nodes of each face towards i + 1, N/m, shape (nx, ny)."""
     grid, mean, problem = solution.grid, solution.faces.mean, solution.problem
     fluidity, own = problem.fluidity(solution.state.pressure)[0], problem.at_nodes

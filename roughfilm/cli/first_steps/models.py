@@ -30,6 +30,7 @@ TYPICAL_CPU_S = {
         "reynolds_cavitating": 0.14,
         "homogenized": 0.3,
         "mixed": 0.4,
+        "heat_balance": 0.9,
         "direct": 1.3,
         "film": 0.06,
         "film_slope": 0.06,

@@ -35,6 +35,7 @@ STYLES = {
     "homogenized": Style(colour="#b2182b", line="-", marker="v"),
     "direct": Style(colour="#252525", line="-", marker="P"),
     "mixed": Style(colour="#762a83", line="-", marker="X"),
+    "heat_balance": Style(colour="#a6611a", line="--", marker="p"),
     "film": Style(colour="#d6604d", line=(0, (5, 1)), marker="<"),
     "film_slope": Style(colour="#9970ab", line=(0, (3, 1, 1, 1)), marker=">"),
     "stokes": Style(colour="#35978f", line=":", marker="h"),

@@ -74,21 +74,22 @@ def bearing(scene: Bearing, result: Result) -> Iterator[str]:
     slack = ROUND_OFF * max(float(np.abs(pressure).max()), abs(lowest))
     if "cavitation" in result.provenance["keeps"] and pressure.min() < lowest - slack:
         yield f"pressure {pressure.min():.6g} Pa is below that of cavitation, {lowest:.6g} Pa"
+    touching = "contact_pressure" in field
     theta = field["density_ratio"]
     if theta.min() < 0 or abs(value["theta_min"] - theta.min()) > ROUND_OFF:
         yield f"the smallest density ratio is {theta.min():.6g}, reported {value['theta_min']:.6g}"
     if not -slack <= value["pressure_max"] - pressure.max() <= _most_above(pressure) + slack:
         yield f"the greatest pressure at a node is {pressure.max():.6g} Pa, reported {value['pressure_max']:.6g}"
-    if field["film_thickness"].min() <= 0 and result.model != "mixed":
+    if field["film_thickness"].min() <= 0 and not touching:
         yield "the film has no thickness"
     for name in value.keys() & {"film_start", "rupture", "cavitated_fraction"}:
         if not -ROUND_OFF <= value[name] <= 1 + ROUND_OFF:
             yield f"{name} is {value[name]:.6g}, not a fraction"
     yield from _loads(scene, value, field)
     ambient = scene.boundary == type(scene.boundary)()
-    if ambient and scene.motion.speed and result.model != "mixed" and value["friction_per_width"] < 0:
+    if ambient and scene.motion.speed and not touching and value["friction_per_width"] < 0:
         yield f"the film drives the wall, friction {value['friction_per_width']:.6g} N/m"
-    if result.model == "mixed":
+    if touching:
         yield from _touching(scene, value, field)
 
 

@@ -20,6 +20,13 @@ MODELS = of_kind(ladder(rom), "bearing")
 CAVITATING = find("bearing", "reynolds_cavitating")
 
 
+HEATED = [
+    "lubricant.temperature=40 degC",
+    "lubricant.density=870 kg/m^3",
+    "lubricant.heat_capacity=2000 J/(kg*K)",
+    'lubricant.thermoviscosity={"law": "exponential", "temperature_coefficient": "0.03 1/K"}',
+]
+
 ROUGH = [
     'roughness={"kind": "sinusoid", "amplitude": "2 um", "wavelength": "50 mm", "direction": "30 deg"}',
 ]
@@ -44,6 +51,7 @@ def test_the_lattice():
         "homogenized",
         "direct",
         "mixed",
+        "heat_balance",
     ]
     steps = {(a.name, b.name): effect for a in MODELS for b, effect in one_effect_away(a, MODELS)}
     assert steps == {
@@ -53,8 +61,9 @@ def test_the_lattice():
         ("infinitely_wide", "reynolds_cavitating"): Effect.SIDE_FLOW,
         ("reynolds_cavitating", "homogenized"): Effect.ROUGHNESS,
         ("homogenized", "direct"): Effect.FINITE_WAVES,
+        ("mixed", "heat_balance"): Effect.HEATING,
     }
-    assert best(MODELS).name == "mixed"
+    assert best(MODELS).name == "heat_balance"
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
@@ -62,6 +71,8 @@ def test_contract(model, tips):
     scene = load_scene(SCENES / "journal.toml", ROUGH if Effect.ROUGHNESS in model.keeps else [])
     if Effect.DEFORMATION in model.keeps:
         scene = tips.scene(scene_entries(scene)["geometry"] | {"eccentricity": 0.95})
+    if Effect.HEATING in model.keeps:
+        scene = load_scene(SCENES / "journal.toml", HEATED)
     if Effect.INERTIA in model.keeps:
         scene = load_scene(SCENES / "wide_pad.toml")
     seen = []

@@ -1,0 +1,93 @@
+"""The power that a film dissipates, balanced with the power of its sliding wall and of the pressures at its ends."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.cavitation.evaluation.flows import balances, flow_across, flow_along, stored_flow
+from roughfilm.rom.cavitation.evaluation.friction import pull_across, pull_along, radius_between
+from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.solve import Solution
+
+GAUSS_POINTS = 5
+"""Points of the integral of 1/θ over the pressure."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Flows:
+    """The flows of a film, m³/s at cavitation density (m²/s if wide), shape (nx, ny).
+
+    Attributes
+    ----------
+    along, across : flows through the faces towards i + 1 and j + 1; 0 for the last i or j unless these are periodic.
+    entering : flow into a node from outside the film; negative where liquid leaves.
+    stored : flow that a node stores where the walls move.
+    """
+
+    along: Array
+    across: Array
+    entering: Array
+    stored: Array
+
+
+def film_flows(solution: Solution) -> Flows:
+    """The flows of a film."""
+    along, across = flow_along(solution), flow_across(solution)
+    entering = balances(solution, along, across)
+    return Flows(along=along, across=across, entering=entering, stored=stored_flow(solution))
+
+
+def dissipation(solution: Solution, flows: Flows) -> Array:
+    """The power that the film dissipates in the control volumes of its nodes, W (W/m if wide), shape (nx, ny).
+
+    The film of a face gets the power of the sliding wall and what its flow F loses from one node to the next,
+
+        W = u T + F (P_i - P_j),    P = ∫ dp/θ,
+
+    with the force T on the wall. Where the film is full, W is the shear η u²/h and the flow by pressure 12 η q_p²/h³.
+    A node has the share η_i/(η_i + η_j) of the power of a face. Summed over the film, the powers are those of the
+    friction and of the flows Q into the film, to round-off: Σ W = u Σ T + Σ P Q, less P times what nodes store.
+    Second-order accurate. A film that ruptures inside of a face may have W < 0 there.
+    """
+    problem, grid, net = solution.problem, solution.grid, solution.network
+    potential = pressure_potential(problem, solution.state.pressure)
+    speed = problem.speed * (grid.radius if problem.shape.polar else 1.0)
+    along = speed * grid.volume_y * pull_along(solution)
+    along += flows.along * (potential - np.roll(potential, -1, axis=0))
+    viscosity = viscosities_under_pressure(solution)
+    total = _shared(along, viscosity, axis=0, periodic=net.periodic[0])
+    if grid.shape[1] == 1:
+        return total
+    across = flows.across * (potential - np.roll(potential, -1, axis=1))
+    rough = solution.faces.averaged
+    if rough is not None:
+        towards = radius_between(grid) if problem.shape.polar else 1.0
+        across[:, :-1] += problem.speed * towards * pull_across(solution, rough)
+    return total + _shared(across, viscosity, axis=1, periodic=net.periodic[1])
+
+
+def _shared(power: Array, viscosity: Array, *, axis: int, periodic: bool) -> Array:
+    """The powers of the faces towards the next node along an axis, divided between their two nodes."""
+    if not periodic:
+        power[(-1,) if axis == 0 else (slice(None), -1)] = 0.0
+    own = power * (viscosity / (viscosity + np.roll(viscosity, -1, axis=axis)))
+    return np.asarray(own + np.roll(power - own, 1, axis=axis))
+
+
+def viscosities_under_pressure(solution: Solution) -> Array:
+    """The viscosity of the shear at the nodes under their pressure, Pa s, shape (nx, ny)."""
+    problem = solution.problem
+    viscosity = problem.viscosity if problem.at_nodes is None else problem.at_nodes.shear
+    return np.asarray(viscosity / problem.fluidity(solution.state.pressure)[0])
+
+
+def pressure_potential(problem: Problem, pressure: Array) -> Array:
+    """P = ∫ dp/θ from the cavitation pressure, Pa: the work of the pressure on a volume at cavitation density."""
+    if problem.initial_compressibility == 0:
+        return pressure
+    places, weights = np.polynomial.legendre.leggauss(GAUSS_POINTS)
+    points = zip((places + 1) / 2, weights / 2, strict=True)
+    return np.asarray(
+        sum(weight * pressure / (1 + problem.compression(place * pressure)[0]) for place, weight in points)
+    )

@@ -1,0 +1,114 @@
+"""Stribeck curves whose films are at the temperature at which their heat is balanced."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.ladder import find
+from roughfilm.rom.bearing.mixed.curves import curve_inputs
+from roughfilm.rom.bearing.mixed.store import known_points, numbers_of, save_points, write_csv
+from roughfilm.rom.bearing.mixed.stribeck import stribeck
+from roughfilm.rom.ladder.request import Request
+from roughfilm.rom.ladder.scene import read_scene
+
+CELLS = 16
+OIL = {
+    "viscosity": "0.03 Pa*s",
+    "density": "870 kg/m^3",
+    "heat_capacity": "2000 J/(kg*K)",
+    "temperature": "40 degC",
+    "thermoviscosity": {"law": "exponential", "temperature_coefficient": "0.035 1/K"},
+}
+JOURNAL = {"shape": "journal", "radius": "25 mm", "clearance": "30 um", "width": "40 mm"}
+BORE = JOURNAL | {"shape": "lobes", "lobes": 2, "arc": "150 deg"}
+PAD = {"shape": "linear", "length": "20 mm", "width": "20 mm", "rise": "10 um"}
+ROUGH = {
+    "roughness": {
+        "kind": "surface",
+        "surface": {
+            "kind": "gaussian",
+            "size": ["0.2 mm", "0.2 mm"],
+            "points": [24, 24],
+            "seed": 3,
+            "rms_height": "0.5 um",
+            "correlation_length": "30 um",
+        },
+    },
+    "asperities": {"friction": 0.1, "solid": {"modulus": "210 GPa", "poisson": 0.3, "hardness": "3 GPa"}},
+    "heat": {"heat_transfer": "500 W/(m^2*K)", "area": "0.02 m^2"},
+}
+
+
+def scene_of(geometry, speed="2 m/s", oil=(), **tables):
+    lubricant, tables = OIL | dict(oil), {"load": {"pressure": "1 MPa"}} | tables
+    return read_scene(
+        {"name": "heated", "kind": "bearing", "geometry": geometry, "lubricant": lubricant, "motion": {"speed": speed}}
+        | tables
+    )
+
+
+@pytest.mark.parametrize("geometry", [JOURNAL, BORE, PAD], ids=lambda one: one["shape"])
+def test_a_point_is_the_film_of_heat_balance(geometry):
+    """At one speed and load the curve has the film and the temperature of the model, on the same grid."""
+    pressure = 1e6
+    scene = scene_of(geometry)
+    ((point,),) = (curve.points for curve in stribeck(scene, [2.0], [pressure], resolution=CELLS))
+    result = find("bearing", "heat_balance").solve(scene, Request(resolution=CELLS))
+    assert point.temperature == pytest.approx(result["effective_temperature"].value, abs=2e-3)
+    assert point.outlet_temperature == pytest.approx(result["outlet_temperature"].value, abs=4e-3)
+    assert point.friction == pytest.approx(result["friction"].value, rel=1e-4)
+    assert point.temperature > 40.5
+    assert 0 < point.uncertainty["temperature"] < point.temperature - 40
+
+
+def test_heat_lowers_friction_and_film_at_high_speeds_and_leaves_low_ones():
+    scene = scene_of(JOURNAL)
+    (hot,), (cold,) = (stribeck(one, [0.01, 20.0], [1e6], resolution=CELLS) for one in (scene, scene.isothermal()))
+    slow, fast = hot.points
+    assert 40 < slow.temperature < 40.5
+    assert slow.friction == pytest.approx(cold.points[0].friction, rel=1e-2)
+    assert fast.friction < 0.7 * cold.points[1].friction
+    assert fast.separation < cold.points[1].separation
+    assert cold.points[0].temperature is None
+    assert cold.points[0].uncertainty.keys() == hot.points[0].uncertainty.keys() - {"temperature", "outlet_temperature"}
+
+
+def test_a_viscosity_that_does_not_change_leaves_the_curve():
+    oil = {"thermoviscosity": {"law": "exponential", "temperature_coefficient": "0 1/K"}}
+    scene = scene_of(JOURNAL, oil=oil)
+    (hot,), (cold,) = (stribeck(one, [0.1, 5.0], [1e6], resolution=CELLS) for one in (scene, scene.isothermal()))
+    for one, other in zip(hot.points, cold.points, strict=True):
+        assert one.friction == pytest.approx(other.friction, rel=1e-5)
+        assert one.separation == pytest.approx(other.separation, rel=1e-5)
+
+
+@pytest.fixture(scope="module")
+def rough():
+    scene = scene_of(PAD, **ROUGH)
+    (hot,), (cold,) = (stribeck(one, [0.0, 0.2, 30.0], [3e6], resolution=CELLS) for one in (scene, scene.isothermal()))
+    return scene, hot, cold
+
+
+def test_asperities_heat_the_film_too(rough):
+    """At rest nothing heats; where asperities carry, P is their friction, and heat leaves them more of the load."""
+    _, hot, cold = rough
+    rest, mixed, _ = hot.points
+    assert rest.temperature == pytest.approx(40, abs=1e-3)
+    assert mixed.contact_share > cold.points[1].contact_share > 0
+    assert mixed.temperature > 40.1
+    assert mixed.friction > 0.1 * mixed.contact_load
+    assert hot.lift_off.speed > cold.lift_off.speed > 0
+    assert math.isfinite(hot.lift_off.uncertainty)
+
+
+def test_the_file_keeps_temperatures(rough, tmp_path: Path):
+    scene, hot, cold = rough
+    inputs: Inputs = curve_inputs(scene, None, CELLS)
+    save_points(tmp_path / "hot.h5", inputs, hot.points)
+    assert known_points(tmp_path / "hot.h5", inputs) == hot.points
+    write_csv(tmp_path / "hot.csv", [hot])
+    assert "temperature (degC), outlet_temperature (degC)" in (tmp_path / "hot.csv").read_text().splitlines()[0]
+    assert "temperature" not in numbers_of(cold.points)
+    assert curve_inputs(scene.isothermal(), None, CELLS).digest != inputs.digest
