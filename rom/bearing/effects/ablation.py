@@ -18,6 +18,7 @@ from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.numbers import without_texture
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Outputs
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.heat_balance import Heated
 from roughfilm.rom.bearing.uncertainty import IMBALANCE_FACTOR
 from roughfilm.rom.bearing.warnings import scene_warnings
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty, grid_warnings
@@ -40,12 +41,14 @@ class Variant:
     sides : whether there is flow through the sides.
     ruptures : whether the film cavitates; without cavitation pressures may be negative, and the inlet is full.
     factors : whether roughness changes the flow; the contact of asperities does not depend on it.
+    heat : the temperature of the film and what its heat brings about; None where the scene gives the viscosity.
     """
 
     scene: Bearing
     sides: bool = True
     ruptures: bool = True
     factors: bool = True
+    heat: Heated | None = None
 
     @property
     def rough(self) -> bool:
@@ -80,6 +83,8 @@ class Variant:
     @property
     def outputs(self) -> Outputs:
         """The functions that evaluate its film."""
+        if self.heat is not None:
+            return self.heat.outputs
         return FILM_OUTPUTS if self.scene.asperities is None else MIXED_OUTPUTS
 
 
@@ -146,6 +151,10 @@ def _independent_of_pressure(scene: Bearing) -> Bearing:
     return scene.model_copy(update={"lubricant": scene.lubricant.model_copy(update=laws)})
 
 
+def _heats(scene: Bearing) -> bool:
+    return not scene.lubricant.lacking
+
+
 EFFECTS: tuple[SceneEffect, ...] = (
     SceneEffect(name="side flow", present=_has_side_flow, without=lambda one: replace(one, sides=False)),
     SceneEffect(
@@ -171,11 +180,13 @@ EFFECTS: tuple[SceneEffect, ...] = (
         present=lambda scene: scene.asperities is not None,
         without=lambda one: replace(one, scene=one.scene.model_copy(update={"asperities": None})),
     ),
+    SceneEffect(name="heating", present=_heats, without=lambda one: replace(one, scene=one.scene.isothermal())),
 )
 """All effects in the order in which they are switched on.
 
 Without roughness asperities touch but do not change the flow. Without asperities the flow factors are those of the
-undeformed roughness, truncated where the walls overlap.
+undeformed roughness, truncated where the walls overlap. Without heating the film has the temperature of its supply,
+with it the one at which its heat is balanced (:mod:`roughfilm.rom.bearing.effects.heated`).
 """
 
 

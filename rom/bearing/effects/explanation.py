@@ -8,15 +8,21 @@ import numpy as np
 
 from roughfilm.rom.bearing.effects.ablation import effects_of
 from roughfilm.rom.bearing.effects.inertia import FIRST_ORDER, FULL, inertia_obstacle
+from roughfilm.rom.bearing.effects.viscosity import viscosity_omitted
 from roughfilm.rom.bearing.effects.wide_pad import wide_pad
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
+from roughfilm.rom.bearing.models.heat_balance import MODEL as HEAT_BALANCE
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.ladder.kind import kind_of_scene
 
 Numbers = Mapping[str, float]
 
 SMALL_REDUCED_REYNOLDS_NUMBER = 0.3
 """Reduced Reynolds number Re·h/l below which inertia is small."""
+
+SMALL_HEATING_NUMBER = 0.05
+"""Change of ln η by the heat of a film below which heating is small."""
 
 SLOPE = "to second order, film_slope minus film; not included in the load of the film"
 """The reason for the model of slope."""
@@ -48,9 +54,9 @@ def effect_models(scene: Bearing, *, full: bool | None = None) -> tuple[EffectMo
     ----------
     full : whether inertia is computed in full; by default as at the expected film.
     """
-    numbers = bearing_numbers(scene)
+    numbers, uneven = bearing_numbers(scene), _uneven(scene)
     models = [
-        EffectModel(effect=effect.name, model=model, why=why(numbers))
+        EffectModel(effect=effect.name, model=model, why=why(numbers) + (uneven if effect.name == "heating" else ""))
         for effect in effects_of(scene)
         for model, why in [EFFECT_MODELS[effect.name]]
     ]
@@ -170,6 +176,30 @@ def _inertia(numbers: Numbers) -> str:
     )
 
 
+def _heating(numbers: Numbers) -> str:
+    number = numbers["heating_number"]
+    size = "small" if number < SMALL_HEATING_NUMBER else "not small"
+    words = (
+        "one temperature for the whole film, at which its heat is balanced; change of ln η by the heat of the film of "
+        f"the supplied viscosity βΔT = {number:.2g}: heating is {size}"
+    )
+    if "nahme_number" not in numbers:
+        return words
+    brinkman = f", Brinkman number ηu²/(kΔT) = {numbers['brinkman_number']:.2g}" if "brinkman_number" in numbers else ""
+    peclet = numbers["thermal_peclet_number"]
+    carried = "the flow carries most heat" if peclet > 1 else "the walls, if they conduct, take most heat"
+    return (
+        f"{words}; Nahme number βηu²/k = {numbers['nahme_number']:.2g}{brinkman}; Péclet number ρcuh²/(kL) = "
+        f"{peclet:.2g}: {carried}"
+    )
+
+
+def _uneven(scene: Bearing) -> str:
+    """What the difference of temperature over the film and across it changes, which one temperature leaves out."""
+    left_out = viscosity_omitted(scene, HEAT_BALANCE, next(iter(kind_of_scene(scene).compared)))
+    return "" if left_out is None else f"; {left_out.reason}, which is not counted"
+
+
 EFFECT_MODELS: Mapping[str, tuple[str, Callable[[Numbers], str]]] = {
     "side flow": ("reynolds", _sides),
     "texture": ("reynolds", _texture),
@@ -177,5 +207,6 @@ EFFECT_MODELS: Mapping[str, tuple[str, Callable[[Numbers], str]]] = {
     "pressure dependence": ("reynolds_cavitating", _pressure),
     "roughness": ("homogenized", _roughness),
     "asperities": ("mixed", _asperities),
+    "heating": ("heat_balance", _heating),
 }
 """The model of each effect by the name of the effect, and the function that gives the reason."""
