@@ -1,20 +1,25 @@
 """The viscosities of a film of a lubricant that thins with shear, node by node."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.shear_thinning import ThinningCurve
-from roughfilm.rom.shear_thinning.straight_gap import thinned_by_flow
+from roughfilm.rom.shear_thinning.straight_gap import ShearedGap, thinned_by_flow
 
 
 def thinned(
-    solution: Solution, curve: ThinningCurve, *, viscosity: Array | None = None, gap: Array | None = None
-) -> Viscosities:
+    solution: Solution,
+    curve: ThinningCurve,
+    *,
+    viscosity: Array | None = None,
+    gap: Array | None = None,
+    start: Array | None = None,
+) -> ShearedGap:
     """The viscosities by the law of shear thinning at the flows of a film, at its nodes and at the cavitation pressure.
 
     A film with these viscosities has other flows; the film of the law is the fixed point. With the potential
@@ -34,11 +39,13 @@ def thinned(
     viscosity : viscosity η₀ at rest at the nodes and the cavitation pressure, Pa s, shape (nx, ny), such as that at
         their temperatures; by default that of the problem.
     gap : mean gap at the nodes, m, shape (nx, ny); by default the film thickness.
+    start : stress of a film near this one on the same grid, shape (nx, ny, 4).
 
     Returns
     -------
-    Viscosities
-        Viscosities of shape (nx, ny), which under the pressure law of the problem are those of the law under pressure.
+    ShearedGap
+        Viscosities of shape (nx, ny), which under the pressure law of the problem are those of the law under pressure,
+        and the stress.
 
     Raises
     ------
@@ -57,9 +64,13 @@ def thinned(
     along, across = pressure_gradient(solution)
     carried = 0.0 if own is None else (own.carried - 1) * speed * h / 2
     driven = carried - h**3 / (12 * flow) * along, -(h**3) / (12 * flow) * across
-    found = thinned_by_flow(curve, under_pressure, h, speed, driven)
-    at_cavitation = at_rest * (found.flow / under_pressure) ** _steepness(problem, pressure)
-    return Viscosities(flow=at_cavitation, shear=found.shear / found.flow * at_cavitation, carried=found.carried)
+    found = thinned_by_flow(curve, under_pressure, h, speed, driven, start)
+    own_flow = found.viscosities.flow
+    at_cavitation = at_rest * (own_flow / under_pressure) ** _steepness(problem, pressure)
+    viscosities = replace(
+        found.viscosities, flow=at_cavitation, shear=found.viscosities.shear / own_flow * at_cavitation
+    )
+    return replace(found, viscosities=viscosities)
 
 
 def pressure_gradient(solution: Solution) -> tuple[Array, Array]:

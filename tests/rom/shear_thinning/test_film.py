@@ -41,7 +41,7 @@ def film_of(
     nodes, curve, changes = grid(problem.shape, cells), law.curve(VISCOSITY), []
     film = on_grid(problem, nodes, start=None, sweeps=400, tolerance=1e-12)
     for _ in range(films):
-        found = thinned(film, curve)
+        found = thinned(film, curve).viscosities
         own = film.problem.at_nodes
         changes.append(float(np.abs(np.log(found.flow / (VISCOSITY if own is None else own.flow))).max()))
         if changes[-1] < 1e-11:

@@ -111,7 +111,7 @@ def test_the_gradient_of_a_flow_leads_back_to_it() -> None:
         found = by_gradient(law, speed, along, across)
         driven = flow(found, speed, along) - speed * FILM / 2, -(FILM**3) / (12 * found.flow) * across
         one = np.ones(along.shape)
-        back = thinned_by_flow(law.curve(VISCOSITY), VISCOSITY * one, FILM * one, speed, driven)
+        back = thinned_by_flow(law.curve(VISCOSITY), VISCOSITY * one, FILM * one, speed, driven).viscosities
         for name in ("flow", "shear", "carried"):
             np.testing.assert_allclose(getattr(back, name), getattr(found, name), rtol=1e-7)
 

@@ -10,7 +10,7 @@ from roughfilm.rom.bearing.equilibrium.films import FilmState, ModelFilms
 from roughfilm.rom.bearing.free.solve import PlacedFilm, WithField
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState, mixed_problem
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.field.coupling import Coupled, Heated, Heating, coupled
+from roughfilm.rom.bearing.thermal.field.coupling import FIELD_TOLERANCE, Coupled, Heated, Heating, coupled
 from roughfilm.rom.bearing.thermal.field.nodal import in_scene, nodal_field, own_logarithms
 from roughfilm.rom.cavitation.fluid import ViscosityField
 from roughfilm.rom.cavitation.network import State
@@ -75,11 +75,13 @@ class HeatedFilms:
     isothermal : the films with the viscosity of the scene.
     heating : the energy equation.
     last : the last film, whose temperatures start the next one, on another grid too.
+    tolerance : tolerance of the iteration of films and temperatures.
     """
 
     isothermal: AnyFilms
     heating: Heating[Any]
     last: LastFilm
+    tolerance: float = FIELD_TOLERANCE
 
     @property
     def area(self) -> float:
@@ -113,10 +115,14 @@ class HeatedFilms:
     def at(self, film: float, speed: float, start: State | None = None) -> AnyState:
         """Solve the film at a minimum thickness, m, and a speed, m/s, starting from the state of another film."""
         first = _with_viscosities(self.isothermal, self.last.viscosities).at(film, speed, start)
-        films, tolerance = self.isothermal, self.isothermal.residual
-        ruptures = films.ruptures if isinstance(films, ModelFilms) else True
+        films = self.isothermal
         solution = heated_film(
-            first.solution, self.heating, near=self.last.heated, tolerance=tolerance, ruptures=ruptures
+            first.solution,
+            self.heating,
+            near=self.last.heated,
+            residual=films.residual,
+            ruptures=films.ruptures if isinstance(films, ModelFilms) else True,
+            tolerance=self.tolerance,
         )
         self.last.keep(solution)
         return self.isothermal.state(first.scene, solution)
@@ -135,15 +141,16 @@ def _with_viscosities(films: AnyFilms, viscosities: ViscosityField | None) -> An
 
 
 def heated_film(
-    solution: Solution, heating: Heating[Any], *, near: Heated | None, tolerance: float, ruptures: bool
+    solution: Solution, heating: Heating[Any], *, near: Heated | None, residual: float, ruptures: bool, tolerance: float
 ) -> HeatedSolution:
     """The film of a solution with the viscosities of its temperatures.
 
     Parameters
     ----------
     near : temperatures of a film near this one.
-    tolerance : residual at which a film is solved.
+    residual : residual at which a film is solved.
     ruptures : whether the film cavitates.
+    tolerance : tolerance of the iteration of films and temperatures.
 
     Raises
     ------
@@ -153,9 +160,9 @@ def heated_film(
 
     def again(film: _Film, values: Array) -> _Film:
         varied = nodal_field(film.solution, values)
-        return _Film(with_viscosities(film.solution, varied, tolerance=tolerance, ruptures=ruptures))
+        return _Film(with_viscosities(film.solution, varied, tolerance=residual, ruptures=ruptures))
 
-    found = coupled(_Film(solution), again, heating, near=near)
+    found = coupled(_Film(solution), again, heating, near=near, tolerance=tolerance)
     return heated_solution(found.film.solution, found)
 
 
@@ -167,10 +174,12 @@ class HeatedBearing:
     ----------
     heating : the energy equation of the scene.
     last : the last film.
+    tolerance : tolerance of the iteration of films and temperatures.
     """
 
     heating: Heating[Any]
     last: LastFilm = field(default_factory=LastFilm)
+    tolerance: float = FIELD_TOLERANCE
 
     def film(self, *, tolerance: float, ruptures: bool) -> Callable[[Solution], Solution]:
         """heated(solution), the film on a grid with the viscosities of its temperatures.
@@ -182,7 +191,14 @@ class HeatedBearing:
         """
 
         def heated(solution: Solution) -> Solution:
-            found = heated_film(solution, self.heating, near=self.last.heated, tolerance=tolerance, ruptures=ruptures)
+            found = heated_film(
+                solution,
+                self.heating,
+                near=self.last.heated,
+                residual=tolerance,
+                ruptures=ruptures,
+                tolerance=self.tolerance,
+            )
             self.last.keep(found)
             return found
 
@@ -201,7 +217,7 @@ class HeatedBearing:
         def films(scene: Bearing, cells: int) -> HeatedFilms:
             plain = isothermal(scene, cells)
             assert isinstance(plain, AnyFilms)
-            return HeatedFilms(isothermal=plain, heating=self.heating, last=self.last)
+            return HeatedFilms(isothermal=plain, heating=self.heating, last=self.last, tolerance=self.tolerance)
 
         return films
 
@@ -212,7 +228,9 @@ class HeatedBearing:
             def again(film: PlacedFilm, values: Array) -> PlacedFilm:
                 return at(in_scene(film.solution, values), film)
 
-            found = coupled(at(self.last.viscosities, None), again, self.heating, near=self.last.heated)
+            found = coupled(
+                at(self.last.viscosities, None), again, self.heating, near=self.last.heated, tolerance=self.tolerance
+            )
             solution = heated_solution(found.film.solution, found)
             self.last.keep(solution)
             return replace(found.film, heated=solution)

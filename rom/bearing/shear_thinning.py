@@ -1,0 +1,110 @@
+"""Films of bearings whose lubricant thins with shear."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.quantities import Fields
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.solve import solve
+from roughfilm.rom.bearing.thermal.field.films import HeatedBearing
+from roughfilm.rom.bearing.thermal.isothermal import isothermal_model
+from roughfilm.rom.cavitation.fluid import Viscosities
+from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.ladder.model import Model, Progress
+from roughfilm.rom.ladder.request import CheckedRequest
+from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.lubricants.shear_thinning import ThinningCurve
+from roughfilm.rom.shear_thinning.film import thinned
+
+THINNING_TOLERANCE = 1e-6
+"""Largest difference of ln η between a film and the law at its flows at which the iteration stops."""
+
+
+@dataclass(frozen=True)
+class ThinnedFilm:
+    """The viscosities of a film at its shear, at the one temperature of its lubricant, K, and its stress."""
+
+    temperature: Array
+    viscosities: Viscosities
+    stress: Array
+
+
+@dataclass(frozen=True)
+class Thinning:
+    """The shear thinning of the films of a scene at one temperature.
+
+    Attributes
+    ----------
+    curve : fluidity over stress.
+    temperature : temperature of the lubricant, K; 0 if it is not known.
+    """
+
+    curve: ThinningCurve
+    temperature: float
+
+    def __call__(self, solution: Solution, near: ThinnedFilm | None) -> ThinnedFilm:
+        """The viscosities by the law at the flows of a film; ConvergenceError if a stress does not converge."""
+        shape = solution.grid.shape
+        start = None if near is None or near.stress.shape[:2] != shape else near.stress
+        found = thinned(solution, self.curve, gap=mean_gap(solution), start=start)
+        return ThinnedFilm(np.full(shape, self.temperature), found.viscosities, found.stress)
+
+
+def mean_gap(solution: Solution) -> Array:
+    """The mean gap at the nodes, m, which where asperities are flattened is larger than the film thickness."""
+    gap = getattr(solution.problem.shape.roughness, "mean_gap", np.asarray)
+    return np.asarray(gap(solution.faces.thickness))
+
+
+def thinning(scene: Bearing) -> HeatedBearing | None:
+    """The coupling of the films of a scene with the shear thinning of its lubricant; None without such a law."""
+    lubricant = scene.lubricant
+    if lubricant.shear_thinning is None:
+        return None
+    curve = lubricant.shear_thinning.curve(lubricant.viscosity)
+    return HeatedBearing(heating=Thinning(curve, lubricant.temperature or 0.0), tolerance=THINNING_TOLERANCE)
+
+
+def solve_thinned(solver: Model[Bearing], scene: Bearing, request: CheckedRequest, progress: Progress) -> Result:
+    """Solve the film of a bearing whose lubricant thins with shear, and estimate the uncertainty of its quantities.
+
+    The film is that of the isothermal model that the scene needs, with viscosities at the nodes that are those of the
+    law at its own flows (:func:`roughfilm.rom.shear_thinning.film.thinned`).
+
+    Parameters
+    ----------
+    solver : the model.
+    request : the numerical options.
+
+    Raises
+    ------
+    InputError
+        If no film carries the load of the scene.
+    ConvergenceError
+        If the film, its load or its viscosities do not converge.
+    """
+    base = isothermal_model(scene)
+
+    def fields(one: Bearing, solution: Solution) -> Fields:
+        return {**base.outputs.fields(one, solution), "viscosity": (viscosity_field(solution), "Pa*s")}
+
+    return solve(
+        solver,
+        scene,
+        request,
+        progress,
+        film=base.film,
+        ruptures=True,
+        outputs=replace(base.outputs, fields=fields),
+        heat=thinning(scene),
+        **base.more,
+    )
+
+
+def viscosity_field(solution: Solution) -> Array:
+    """The viscosity of the shear by sliding, h/∫ dz/η, at the nodes under their pressure, Pa s."""
+    own = solution.problem.at_nodes
+    viscosity = solution.problem.viscosity if own is None else own.shear
+    return np.asarray(viscosity / solution.problem.fluidity(solution.state.pressure)[0])
