@@ -294,11 +294,9 @@ def excluded(scene: Bearing) -> str:
 
 def composed(scene: Bearing) -> tuple[str, ...]:
     """A line for each effect with its model and the reason, and one for the film under a load."""
-    from roughfilm.rom.bearing.effects.explanation import effect_models, heating_words  # slow to import
+    from roughfilm.rom.bearing.effects.explanation import effect_models  # slow to import
 
     lines = [f"{one.effect}: {one.model}, {one.why}" for one in effect_models(scene)]
-    if (heating := heating_words(scene)) is not None:
-        lines.append(heating)
     if scene.load is not None:
         film, given = expected_scene(scene).geometry.thinnest, scene.geometry.film
         first = "" if given is None else f"; the given film of {given:.3g} m is the first value of the search"

@@ -345,8 +345,9 @@ def best(models: Sequence[Model]) -> Model:
 
 def best_for(scene: Scene, models: Sequence[Model]) -> Model:
     """The best model for a scene: the one that misses least of its effects, and of equal ones that which keeps most."""
-    missing = kind_of_scene(scene).missing
-    return max(models, key=lambda model: (-missing(scene, model), len(model.keeps), model.complete))
+    kind = kind_of_scene(scene)
+    absent = kind.absent(scene)
+    return max(models, key=lambda model: (-kind.missing(scene, model), len(model.keeps - absent), model.complete))
 
 
 def one_effect_away(model: Model, models: Sequence[Model]) -> tuple[tuple[Model, Effect], ...]:

@@ -21,8 +21,8 @@ Numbers = Mapping[str, float]
 SMALL_REDUCED_REYNOLDS_NUMBER = 0.3
 """Reduced Reynolds number Re·h/l below which inertia is small."""
 
-SMALL_HEATING_NUMBER = 0.05
-"""Change of ln η by the heat of a film below which heating is small."""
+HEATING = "heating"
+"""The effect whose reason depends on the lubricant too."""
 
 SLOPE = "to second order, film_slope minus film; not included in the load of the film"
 """The reason for the model of slope."""
@@ -54,12 +54,15 @@ def effect_models(scene: Bearing, *, full: bool | None = None) -> tuple[EffectMo
     ----------
     full : whether inertia is computed in full; by default as at the expected film.
     """
-    numbers, uneven = bearing_numbers(scene), _uneven(scene)
+    numbers = bearing_numbers(scene)
     models = [
-        EffectModel(effect=effect.name, model=model, why=why(numbers) + (uneven if effect.name == "heating" else ""))
+        EffectModel(effect=effect.name, model=model, why=why(numbers))
         for effect in effects_of(scene)
+        if effect.name != HEATING
         for model, why in [EFFECT_MODELS[effect.name]]
     ]
+    if (heating := heating_words(scene)) is not None:
+        models.append(EffectModel(effect=HEATING, model=HEAT_BALANCE.name, why=f"{heating}{_uneven(scene)}"))
     obstacle = inertia_obstacle(scene)
     if obstacle is not None:
         return (*models, EffectModel(effect="inertia", model="none", why=f"left out: {obstacle}"))
@@ -89,9 +92,9 @@ def heating_words(scene: Bearing) -> str | None:
     viscosity, slope = (float(one[0]) for one in liquid.viscosity(np.array([liquid.temperature])))
     coefficient, heating = -slope / viscosity, numbers["heating_number"]
     if coefficient <= 0 or heating == 0:
-        return "heating: friction does not change the viscosity"
+        return "friction does not change the viscosity"
     words = (
-        f"heating: friction heats the film by about {math.log1p(heating) / coefficient:.2g} K while it passes, if the "
+        f"friction heats the film by about {math.log1p(heating) / coefficient:.2g} K while it passes, if the "
         f"walls take no heat, and its viscosity falls by {heating / (1 + heating):.0%}"
     )
     if "thermal_peclet_number" not in numbers:
@@ -176,28 +179,15 @@ def _inertia(numbers: Numbers) -> str:
     )
 
 
-def _heating(numbers: Numbers) -> str:
-    number = numbers["heating_number"]
-    size = "small" if number < SMALL_HEATING_NUMBER else "not small"
-    words = (
-        "one temperature for the whole film, at which its heat is balanced; change of ln η by the heat of the film of "
-        f"the supplied viscosity βΔT = {number:.2g}: heating is {size}"
-    )
-    if "nahme_number" not in numbers:
-        return words
-    brinkman = f", Brinkman number ηu²/(kΔT) = {numbers['brinkman_number']:.2g}" if "brinkman_number" in numbers else ""
-    peclet = numbers["thermal_peclet_number"]
-    carried = "the flow carries most heat" if peclet > 1 else "the walls, if they conduct, take most heat"
-    return (
-        f"{words}; Nahme number βηu²/k = {numbers['nahme_number']:.2g}{brinkman}; Péclet number ρcuh²/(kL) = "
-        f"{peclet:.2g}: {carried}"
-    )
+def _shear_thinning(numbers: Numbers) -> str:  # noqa: ARG001
+    return "viscosities across the film by the law of the lubricant, exact for a straight gap"
 
 
 def _uneven(scene: Bearing) -> str:
     """What the difference of temperature over the film and across it changes, which one temperature leaves out."""
     left_out = viscosity_omitted(scene, HEAT_BALANCE, next(iter(kind_of_scene(scene).compared)))
-    return "" if left_out is None else f"; {left_out.reason}, which is not counted"
+    counted = "one temperature for the whole film"
+    return f"; {counted}" if left_out is None else f"; {counted}: {left_out.reason}, which is not counted"
 
 
 EFFECT_MODELS: Mapping[str, tuple[str, Callable[[Numbers], str]]] = {
@@ -207,6 +197,6 @@ EFFECT_MODELS: Mapping[str, tuple[str, Callable[[Numbers], str]]] = {
     "pressure dependence": ("reynolds_cavitating", _pressure),
     "roughness": ("homogenized", _roughness),
     "asperities": ("mixed", _asperities),
-    "heating": ("heat_balance", _heating),
+    "shear thinning": ("shear_thinning", _shear_thinning),
 }
-"""The model of each effect by the name of the effect, and the function that gives the reason."""
+"""The model of each effect but heating by the name of the effect, and the function that gives the reason."""

@@ -1,5 +1,6 @@
 """The changes of a bearing by heating and by shear thinning, from models that differ by them on one coarse grid."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -37,7 +38,7 @@ class CoarseFilms:
 
     Attributes
     ----------
-    models : the models, from that with none of these effects to that with most of them.
+    models : the models, from that with none of these effects to those with most of them.
     results : results by the name of the model.
     failures : messages of models without a result, by name.
     smooth : whether the rough wall of the scene was replaced by a smooth one.
@@ -54,10 +55,9 @@ class CoarseFilms:
         """The effects on the viscosity that a model keeps in the scene."""
         return (model.keeps & EFFECTS.keys()) - self.absent
 
-    @property
-    def best(self) -> Model[Bearing]:
-        """The model with most effects that has a result."""
-        return next(model for model in reversed(self.models) if model.name in self.results)
+    def above(self, model: Model[Bearing]) -> list[Model[Bearing]]:
+        """The models with the effects of a model and more, from the fewest to the most."""
+        return [one for one in self.models if self.effects(model) < self.effects(one)]
 
     def standing_for(self, model: Model[Bearing]) -> Model[Bearing]:
         """The model here with the same effects on the viscosity as another one."""
@@ -106,30 +106,29 @@ def viscosity_omitted(scene: Bearing, model: Model[Bearing], quantity: str) -> O
     own = films.standing_for(model)
     if own.name not in films.results:
         return None
-    above = [one for one in films.models if films.effects(own) < films.effects(one)]
-    if above and films.best not in above:
+    above = films.above(own)
+    solved = [one for one in above if one.name in films.results]
+    if above and not solved:
         reason = f"{_listed(films.left_out(above[0], own))}: {films.failures[above[0].name]}"
-        return Omission(part=float("inf"), reason=reason, source=ON_COARSE_GRID)
-    change = films.change(quantity, films.best, own)
-    if change is None or films.best == own:
+        return Omission(part=math.inf, reason=reason, source=ON_COARSE_GRID)
+    best = solved[-1] if solved else own
+    change = films.change(quantity, best, own)
+    if change is None or best == own:
         return None
-    names = films.left_out(films.best, own)
+    names = films.left_out(best, own)
     where = " of the smooth film" if films.smooth else ""
     changes = "change" if len(names) > 1 else "changes"
     title = kind_of_scene(scene).titles[quantity]
     reason = f"{_listed(names)} {changes} the {title}{where} by about {share(abs(change))}"
-    return Omission(part=abs(change), reason=reason + _by_others(films, quantity, own), source=ON_COARSE_GRID)
+    others = _by_others(films, quantity, best, solved[:-1])
+    return Omission(part=abs(change), reason=reason + others, source=ON_COARSE_GRID)
 
 
-def _by_others(films: CoarseFilms, quantity: str, own: Model[Bearing]) -> str:
-    """What the models between this one and the best one leave, such as "; heat_balance gives it to 4 %"."""
-    parts = []
-    for one in films.models[films.models.index(own) + 1 :]:
-        left = films.change(quantity, films.best, one)
-        if one != films.best and left is not None:
-            verb = "" if parts else " gives it"
-            parts.append(f"{one.name}{verb} to {share(abs(left))}")
-    return f"; {_listed(parts)}" if parts else ""
+def _by_others(films: CoarseFilms, quantity: str, best: Model[Bearing], others: Sequence[Model[Bearing]]) -> str:
+    """What models with a part of the effects leave, such as "; heat_balance gives it to 4 %"."""
+    left = {one.name: films.change(quantity, best, one) for one in others}
+    parts = [f"{name} to {share(abs(change))}" for name, change in left.items() if change is not None]
+    return "" if not parts else f"; {_listed(parts)}".replace(" to ", " gives it to ", 1)
 
 
 def _listed(names: Sequence[str]) -> str:
@@ -149,9 +148,10 @@ def _films(question: KeyedScene) -> CoarseFilms | None:
         model for model in ladder(rom, kind="bearing") if wanted <= model.keeps and model.applies(scene).applies
     ]
     plain = [model for model in applying if not model.keeps & {*EFFECTS, Effect.FINITE_WAVES}]
-    models = (plain[-1], *(model for model in applying if model.keeps & EFFECTS.keys()))
-    if len(models) == 1:
+    changed = [model for model in applying if model.keeps & EFFECTS.keys()]
+    if not changed:
         return None
+    models = (plain[-1], *sorted(changed, key=lambda model: len((model.keeps & EFFECTS.keys()) - absent)))
     results: dict[str, Result] = {}
     failures: dict[str, str] = {}
     for model in models:

@@ -11,6 +11,7 @@ from roughfilm.contact.foundation.timing import working_time
 from roughfilm.contact.foundation.units import ZERO_CELSIUS, Quantity
 from roughfilm.rom.bearing.quantities import Outputs
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.shear_thinning import thinning
 from roughfilm.rom.bearing.solve import solve
 from roughfilm.rom.bearing.thermal.balanced import balanced
 from roughfilm.rom.bearing.thermal.exchange import Exchange, Temperatures, coldest, exchange_of, temperatures
@@ -156,7 +157,8 @@ def solve_heat_balance(solver: Model[Bearing], scene: Bearing, request: CheckedR
 
     The temperature is sought on a coarse grid, extrapolated from there and from a grid between to the finest one, and
     corrected there until the film has the temperature that its heat brings about to ``TEMPERATURE_TOLERANCE``. A
-    lubricant whose viscosity does not change has the film of the isothermal model to the last bit.
+    lubricant whose viscosity does not change has the film of the isothermal model to the last bit. One that thins with
+    shear has the film of ``shear_thinning`` at that temperature.
 
     The uncertainty of a quantity is that of the isothermal model, where the heat is balanced on each grid at a
     temperature of its own. It contains no error of the model, which takes one temperature for the whole film.
@@ -180,14 +182,16 @@ def solve_heat_balance(solver: Model[Bearing], scene: Bearing, request: CheckedR
     def film(temperature: float, cells: int, sensitivity: Sensitivity = INSENSITIVE) -> Result:
         model = isothermal_model(scene)
         heated = Heated(base=model.outputs, liquid=liquid, temperature=temperature, sensitivity=sensitivity)
+        hot = scene.at_temperature(temperature)
         return solve(
             solver,
-            scene.at_temperature(temperature),
+            hot,
             replace(request, resolution=cells),
             partial(_within, progress, cells / request.resolution),
             film=model.film,
             ruptures=True,
             outputs=heated.outputs,
+            heat=thinning(hot),
             **model.more,
         )
 
