@@ -14,7 +14,7 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
 from roughfilm.rom.bearing.equilibrium.films import ModelFilms
-from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, converted, under_load
+from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, Search, converted, under_load
 from roughfilm.rom.bearing.film import Searched, smooth_films
 from roughfilm.rom.bearing.free.evaluated import evaluated
 from roughfilm.rom.bearing.free.solve import PlacedFilm, WithField, solve_free
@@ -58,8 +58,8 @@ class Heat(Protocol):
         """heated(solution), the film on a grid with the viscosities of its temperatures."""
         ...
 
-    def films(self, isothermal: FilmsOnGrid) -> FilmsOnGrid:
-        """The films among which that under a load is sought."""
+    def loaded(self) -> Callable[[SeparableBearing[Any], Search[Any]], Any]:
+        """heated(films, search), the film that carries a load with the viscosities of its temperatures."""
         ...
 
     def placed(self) -> Callable[[WithField], PlacedFilm]:
@@ -136,11 +136,11 @@ def solve(
         among = (searched or partial(smooth_films, film=film))(scene)
         if films is None:
             films = partial(_films, among=among, ruptures=ruptures, tolerance=request.tolerance)
-        if heat is not None:
-            films = heat.films(films)
-        found = _under_load(scene, cells, among, films, outputs, progress)
+        found = _under_load(scene, cells, among, films, outputs, heat, progress)
     solution, quantities = found.levels[0]
-    uncertainty = uncertainties(found.levels, found.of_factors, found.balance, exact=found.exact, apart=found.apart)
+    of_factors, iterated = found.of_factors, outputs.iteration_uncertainties(solution, quantities)
+    more = {name: of_factors.get(name, 0.0) + iterated.get(name, 0.0) for name in {*of_factors, *iterated}}
+    uncertainty = uncertainties(found.levels, more, found.balance, exact=found.exact, apart=found.apart)
     warnings = [
         *grid_warnings(solution),
         *thickness_warnings(found.scene, solution),
@@ -167,7 +167,10 @@ def solve(
             request,
             cpu_s=working_time() - cpu,
             wall_s=time.perf_counter() - wall,
-            details={} if found.balance is None else {"balance": found.balance, "films": float(found.films)},
+            details={
+                **({} if found.balance is None else {"balance": found.balance, "films": float(found.films)}),
+                **outputs.details(solution),
+            },
         ),
         provenance=provenance(
             scene,
@@ -284,7 +287,13 @@ def _films(scene: Bearing, cells: int, *, among: Searched, ruptures: bool, toler
 
 
 def _under_load(
-    scene: Bearing, cells: int, among: Searched, films: FilmsOnGrid, outputs: Outputs, progress: Progress
+    scene: Bearing,
+    cells: int,
+    among: Searched,
+    films: FilmsOnGrid,
+    outputs: Outputs,
+    heat: Heat | None,
+    progress: Progress,
 ) -> _Found:
     """The film that carries the load of the scene."""
     assert scene.load_pressure is not None
@@ -295,6 +304,7 @@ def _under_load(
         speed=scene.motion.speed,
         guess=among.first,
         sensitive=scene.roughness is not None and among.averaged,
+        heated=None if heat is None else heat.loaded(),
         progress=progress,
     )
     levels = tuple((state.solution, _loaded(state.scene, state.solution, outputs)) for state in found.states)

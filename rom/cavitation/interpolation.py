@@ -10,11 +10,12 @@ from roughfilm.rom.cavitation.network import State
 
 def carried(state: State, coarse: Grid, fine: Grid, joined: tuple[bool, bool]) -> State:
     """The state on the fine grid, linear in pressure and filling fraction; nodes with pressure above zero are film."""
-    pressure, fill = _interpolated((state.pressure, state.fill), coarse, fine, joined)
+    pressure, fill = interpolated((state.pressure, state.fill), coarse, fine, joined)
     return State(pressure=pressure, fill=np.where(pressure > 0, 1.0, fill))
 
 
-def _interpolated(fields: tuple[Array, ...], known: Grid, wanted: Grid, joined: tuple[bool, bool]) -> list[Array]:
+def interpolated(fields: tuple[Array, ...], known: Grid, wanted: Grid, joined: tuple[bool, bool]) -> list[Array]:
+    """Fields at the nodes of one grid at those of another one, linear along both directions."""
     x = between(known.x, known.spacing_x, wanted.x, joined=joined[0])
     y = between(known.y, known.spacing_y, wanted.y, joined=joined[1])
     return [np.ascontiguousarray(_spread(_spread(values, *x).T, *y).T) for values in fields]
@@ -23,7 +24,7 @@ def _interpolated(fields: tuple[Array, ...], known: Grid, wanted: Grid, joined: 
 def between(
     known: Array, spacing: Array, wanted: Array, *, joined: bool
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
-    """The two neighbours of every wanted position, and its relative distance from the first to the second."""
+    """The two known neighbours of every wanted position, and its relative distance from the first to the second."""
     if known.size == 1:
         nothing = np.zeros(wanted.size, dtype=np.intp)
         return nothing, nothing, np.zeros(wanted.size)

@@ -46,6 +46,9 @@ CIRCULATION_TOLERANCE = 1e-2
 CIRCULATION_ITERATIONS = 60
 """Largest number of sweeps for it in one Newton step."""
 
+REMEMBERED = 12
+"""Largest number of directions that are kept in one step; they take the memory of three fields each."""
+
 ACCURACY = 1e-13
 """Relative change of a temperature, K, at which it belongs to its heat."""
 
@@ -100,6 +103,7 @@ def mean_temperature(
     entering: float | Array | None = None,
     exchange: float | Array = 0.0,
     wall: float | Array | None = None,
+    added_power: float | Array = 0.0,
     start: Array | None = None,
 ) -> MeanTemperature:
     """Solve Σ F e(T) = W η(T)/η - U A (T - T_w), the heat balance of every node, for the temperature over a film.
@@ -125,6 +129,7 @@ def mean_temperature(
     entering : temperature of the liquid that enters at a node from outside, K; by default that of the supply.
     exchange : U, coefficient of the heat transfer to both walls together, W/(m² K).
     wall : T_w, temperature of the walls, K; by default that of the supply.
+    added_power : further power that heats the liquid of each node, such as that of asperities which rub, W.
     start : temperature from which to start, K, shape (nx, ny).
 
     Raises
@@ -143,7 +148,7 @@ def mean_temperature(
     at_nodes = solution.problem.at_nodes
     known = solution.problem.viscosity if at_nodes is None else at_nodes.shear
     power = dissipation(solution, flows)
-    fixed_power, relative_power = np.minimum(power, 0.0), np.maximum(power, 0.0) / known
+    fixed_power, relative_power = np.minimum(power, 0.0) + added_power, np.maximum(power, 0.0) / known
     gained = np.maximum(flows.entering, 0.0) * liquid.heat(inlet)[0]
     order, late = _arranged(flows)
 
@@ -232,45 +237,44 @@ def _temperature_of(heat: Array, liquid: Liquid, near: Array) -> tuple[Array, Ar
 
 
 def _solve(
-    linear: tuple[NDArray[Any], ...],
-    source: Array,
-    late: NDArray[np.int64],
-    unknowns: tuple[Array, Array, Array],
+    linear: tuple[NDArray[Any], ...], source: Array, late: NDArray[np.int64], unknowns: tuple[Array, Array, Array]
 ) -> None:
     """Solve the linear heat balances for e, e_x and e_y of the nodes.
 
     One sweep in the order of the flow solves them from the values z of the nodes whose liquid returns, and gives
-    z = A z + g; GMRES solves this small system.
+    A z + g. Generalised conjugate residuals solve (1 - A) z = g; each direction changes all unknowns in proportion.
+    Source: Eisenstat, Elman and Schultz 1983, doi:10.1137/0720023.
     """
-    if late.size:
-        from scipy.sparse.linalg import LinearOperator, gmres
-
-        def returned(values: tuple[Array, ...]) -> Array:
-            return np.concatenate([one.reshape(-1)[late] for one in values])
-
-        def set_to(values: tuple[Array, ...], given: Array) -> None:
-            for one, part in zip(values, np.split(given, len(values)), strict=True):
-                one.reshape(-1)[late] = part
-
-        trial, nothing = tuple(np.zeros_like(one) for one in unknowns), np.zeros_like(source)
-
-        def image(vector: Array) -> Array:
-            set_to(trial, vector)
-            sweep(*linear, nothing, *trial)
-            return np.asarray(vector - returned(trial))
-
-        before = returned(unknowns)
-        sweep(*linear, source, *unknowns)
-        operator = LinearOperator((before.size, before.size), matvec=image, dtype=float)
-        change = gmres(
-            operator,
-            returned(unknowns) - before,
-            rtol=CIRCULATION_TOLERANCE,
-            restart=CIRCULATION_ITERATIONS,
-            maxiter=1,
-        )[0]
-        set_to(unknowns, before + change)
+    before = _returned(unknowns, late)
     sweep(*linear, source, *unknowns)
+    residual = _returned(unknowns, late) - before
+    least = CIRCULATION_TOLERANCE * np.linalg.norm(residual)
+    known: list[tuple[Array, ...]] = []
+    for _ in range(CIRCULATION_ITERATIONS):
+        if np.linalg.norm(residual) <= least:
+            break
+        response = tuple(np.zeros_like(source) for _ in unknowns)
+        for values, part in zip(response, np.split(residual, len(response)), strict=True):
+            values.reshape(-1)[late] = part
+        sweep(*linear, np.zeros_like(source), *response)
+        direction = residual - _returned(response, late), *response
+        for other in known:
+            common = direction[0] @ other[0]
+            direction = tuple(own - common * one for own, one in zip(direction, other, strict=True))
+        size = np.linalg.norm(direction[0])
+        if size == 0:  # the liquid returns with all of its heat
+            break
+        direction = tuple(own / size for own in direction)
+        length = direction[0] @ residual
+        residual = residual - length * direction[0]
+        for values, change in zip(unknowns, direction[1:], strict=True):
+            values += length * change
+        known = [*known, direction] if len(known) < REMEMBERED else [direction]
+
+
+def _returned(values: tuple[Array, ...], late: NDArray[np.int64]) -> Array:
+    """The values of the nodes whose liquid returns, one after the other."""
+    return np.concatenate([one.reshape(-1)[late] for one in values])
 
 
 def _carried(solution: Solution, flows: Flows, gained: Array, heat: Array) -> dict[str, Carried]:

@@ -79,9 +79,5 @@ class ModelFilms:
         """Solve the film at a minimum thickness, m, and a speed, m/s, starting from the state of another film."""
         scene, cells = self.scene.at_speed(speed).at_film(film), (self.cells, self.cells)
         solution = solve(self.film(scene), cells, start=start, tolerance=self.residual, ruptures=self.ruptures)
-        return self.state(scene, solution)
-
-    def state(self, scene: Bearing, solution: Solution) -> FilmState:
-        """The film of a scene with its load."""
         force = solution.grid.areas * (solution.state.pressure + scene.lubricant.cavitation_pressure)
         return FilmState(scene=scene, solution=solution, load=load_of(scene, scene_positions(solution), force))

@@ -64,6 +64,10 @@ class BearingState(Protocol):
 StateT = TypeVar("StateT", bound=BearingState)
 
 
+Search = Callable[[SeparableBearing[StateT], StateT | None], StateT]
+"""search(films, near), the film among some that carries the load, from one near it on the same grid."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Equilibrium(Generic[StateT]):
     """The film under a load on several grids.
@@ -94,6 +98,7 @@ def under_load(
     speed: float,
     guess: float | None = None,
     sensitive: bool = False,
+    heated: Callable[[SeparableBearing[StateT], Search[StateT]], StateT] | None = None,
     progress: Progress = silent,
 ) -> Equilibrium[StateT]:
     """Solve for the film thickness at which a bearing carries a load, on successively finer grids.
@@ -108,6 +113,8 @@ def under_load(
     speed : sliding speed, m/s.
     guess : initial film thickness, m.
     sensitive : whether a thicker film is solved too, for derivatives.
+    heated : heated(films, search), called on each grid: the film that carries the load with the viscosities of its
+        temperatures; None where viscosities do not depend on the film.
 
     Raises
     ------
@@ -120,19 +127,34 @@ def under_load(
     sizes = [size for size in sizes if size >= MIN_GRID_CELLS or size == cells]
     work = [float(size) ** 2 for size in sizes]
     states: list[StateT] = []
-    searches: list[FilmsAtSpeed[StateT]] = []
+    searches: list[list[FilmsAtSpeed[StateT]]] = []
     start: State | None = None
     for count, size in enumerate(sizes):
         progress(sum(work[:count]) / sum(work), f"{size} cells along a side")
-        at = FilmsAtSpeed(film=bearing(size), speed=speed)
+        films, searched = bearing(size), list[FilmsAtSpeed[StateT]]()
         if states:
-            at.steepness = searches[-1].steepness
             known = sizes[count - len(states) : count + 1]
             near = extrapolated(known, [state.scene.geometry.thinnest for state in states])
-            guess = min(max(near, at.film.closest), at.film.widest)
+            guess = min(max(near, films.closest), films.widest)
             start = _on(states[-1].solution, size)
+
+        def search(
+            among: SeparableBearing[StateT],
+            near: StateT | None,
+            guess: float | None = guess,
+            start: State | None = start,
+            searched: list[FilmsAtSpeed[StateT]] = searched,
+        ) -> StateT:
+            at, before = FilmsAtSpeed(film=among, speed=speed), searched or (searches[-1] if searches else [])
+            if before:
+                at.steepness = before[-1].steepness
+            searched.append(at)
+            if near is not None:
+                guess, start = near.scene.geometry.thinnest, near.solution.state
+            return robustly_balanced(at, pressure, tolerance=LOAD_TOLERANCE, guess=guess, start=start)
+
         try:
-            state = robustly_balanced(at, pressure, tolerance=LOAD_TOLERANCE, guess=guess, start=start)
+            state = search(films, None) if heated is None else heated(films, search)
         except (InputError, ConvergenceError):
             if size == cells:
                 raise
@@ -141,19 +163,19 @@ def under_load(
             start = None
             continue
         states.append(state)
-        searches.append(at)
+        searches.append(searched)
     compared, thicker = min(1, len(states) - 1), None
     if sensitive:
         state = states[-1 - compared]
         film = (1 + FILM_STEP) * state.scene.geometry.thinnest
-        thicker = searches[-1 - compared].film.at(film, speed, state.solution.state)
+        thicker = searches[-1 - compared][-1].film.at(film, speed, state.solution.state)
     return Equilibrium(
         states=tuple(reversed(states)),
         thicker=thicker,
         compared=compared,
-        balance=abs(states[-1].load / (pressure * searches[-1].film.area) - 1),
-        solved=tuple(level for at in searches for level in at.solved),
-        films=tuple(len(at.loads) for at in reversed(searches)),
+        balance=abs(states[-1].load / (pressure * searches[-1][-1].film.area) - 1),
+        solved=tuple(level for of_grid in searches for at in of_grid for level in at.solved),
+        films=tuple(sum(len(at.loads) for at in of_grid) for of_grid in reversed(searches)),
     )
 
 

@@ -154,10 +154,7 @@ class MixedFilm:
         scene = self.scene_at(film, speed)
         problem = mixed_problem(scene, self.asperities) if self.film is None else self.film(scene)
         cells = (self.cells, self.cells)
-        return self.state(scene, solve(problem, cells, start=start, tolerance=self.residual))
-
-    def state(self, scene: Bearing, solution: Solution) -> MixedState:
-        """The film of a scene with the contact of its asperities."""
+        solution = solve(problem, cells, start=start, tolerance=self.residual)
         contact = asperity_load(solution.problem.shape, solution.grid, self.asperities)
         return mixed_state(scene, solution, contact)
 

@@ -7,13 +7,20 @@ from typing import Any
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
 from roughfilm.rom.bearing.equilibrium.films import FilmState, ModelFilms
+from roughfilm.rom.bearing.equilibrium.grids import Search
 from roughfilm.rom.bearing.free.solve import PlacedFilm, WithField
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState, mixed_problem
-from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.field.coupling import FIELD_TOLERANCE, Coupled, Heated, Heating, coupled
+from roughfilm.rom.bearing.thermal.field.coupling import (
+    FIELD_TOLERANCE,
+    Coupled,
+    FilmT,
+    Heated,
+    Heating,
+    contraction,
+    coupled,
+)
 from roughfilm.rom.bearing.thermal.field.nodal import in_scene, nodal_field, own_logarithms
 from roughfilm.rom.cavitation.fluid import ViscosityField
-from roughfilm.rom.cavitation.network import State
 from roughfilm.rom.cavitation.solve import Solution, with_viscosities
 
 AnyFilms = ModelFilms | MixedFilm
@@ -27,18 +34,25 @@ class HeatedSolution(Solution):
     Attributes
     ----------
     heated : the temperatures.
-    changes : largest difference of ln η between the viscosities of each film of the iteration and those of its
-        temperatures.
+    changes : root mean square of the difference of ln η between the viscosities of each film of the iteration and
+        those of its temperatures.
+    largest : largest difference of the last film at a node.
     """
 
     heated: Any
     changes: tuple[float, ...]
+    largest: float
+
+    @property
+    def contraction(self) -> float:
+        """Mean ratio of successive changes; 0 if no film was solved again."""
+        return contraction(self.changes)
 
 
 def heated_solution(solution: Solution, found: Coupled[Any, Any]) -> HeatedSolution:
     """The film with the temperatures of an iteration."""
     own = {one.name: getattr(solution, one.name) for one in fields(Solution)}
-    return HeatedSolution(**own, heated=found.heated, changes=found.changes)
+    return HeatedSolution(**own, heated=found.heated, changes=found.changes, largest=found.largest)
 
 
 @dataclass(kw_only=True)
@@ -66,68 +80,6 @@ class _Film:
     solution: Solution
 
 
-@dataclass(frozen=True, kw_only=True)
-class HeatedFilms:
-    """The films of a bearing at any film thickness and speed, with the viscosities of their temperatures.
-
-    Attributes
-    ----------
-    isothermal : the films with the viscosity of the scene.
-    heating : the energy equation.
-    last : the last film, whose temperatures start the next one, on another grid too.
-    tolerance : tolerance of the iteration of films and temperatures.
-    """
-
-    isothermal: AnyFilms
-    heating: Heating[Any]
-    last: LastFilm
-    tolerance: float = FIELD_TOLERANCE
-
-    @property
-    def area(self) -> float:
-        """The nominal area, m² (m if infinitely wide)."""
-        return self.isothermal.area
-
-    @property
-    def closest(self) -> float:
-        """The smallest film thickness that is tried, m."""
-        return self.isothermal.closest
-
-    @property
-    def touching(self) -> float:
-        """The film thickness at which a search begins, m."""
-        return self.isothermal.touching
-
-    @property
-    def widest(self) -> float:
-        """The largest film thickness, m."""
-        return self.isothermal.widest
-
-    @property
-    def remedy(self) -> str:
-        """The remedy for a load that is too large."""
-        return self.isothermal.remedy
-
-    def contact_load(self, film: float) -> float:
-        """The load of the asperities at a film thickness, m, in N."""
-        return self.isothermal.contact_load(film)
-
-    def at(self, film: float, speed: float, start: State | None = None) -> AnyState:
-        """Solve the film at a minimum thickness, m, and a speed, m/s, starting from the state of another film."""
-        first = _with_viscosities(self.isothermal, self.last.viscosities).at(film, speed, start)
-        films = self.isothermal
-        solution = heated_film(
-            first.solution,
-            self.heating,
-            near=self.last.heated,
-            residual=films.residual,
-            ruptures=films.ruptures if isinstance(films, ModelFilms) else True,
-            tolerance=self.tolerance,
-        )
-        self.last.keep(solution)
-        return self.isothermal.state(first.scene, solution)
-
-
 def _with_viscosities(films: AnyFilms, viscosities: ViscosityField | None) -> AnyFilms:
     """The films with other viscosities than those of their scene."""
     if viscosities is None:
@@ -140,32 +92,6 @@ def _with_viscosities(films: AnyFilms, viscosities: ViscosityField | None) -> An
     return replace(films, film=lambda scene: replace(plain(scene), viscosities=viscosities))
 
 
-def heated_film(
-    solution: Solution, heating: Heating[Any], *, near: Heated | None, residual: float, ruptures: bool, tolerance: float
-) -> HeatedSolution:
-    """The film of a solution with the viscosities of its temperatures.
-
-    Parameters
-    ----------
-    near : temperatures of a film near this one.
-    residual : residual at which a film is solved.
-    ruptures : whether the film cavitates.
-    tolerance : tolerance of the iteration of films and temperatures.
-
-    Raises
-    ------
-    ConvergenceError
-        If a film or its temperatures do not converge.
-    """
-
-    def again(film: _Film, values: Array) -> _Film:
-        varied = nodal_field(film.solution, values)
-        return _Film(with_viscosities(film.solution, varied, tolerance=residual, ruptures=ruptures))
-
-    found = coupled(_Film(solution), again, heating, near=near, tolerance=tolerance)
-    return heated_solution(found.film.solution, found)
-
-
 @dataclass(frozen=True, kw_only=True)
 class HeatedBearing:
     """The coupling of the films of one scene with their temperatures.
@@ -173,13 +99,13 @@ class HeatedBearing:
     Attributes
     ----------
     heating : the energy equation of the scene.
-    last : the last film.
     tolerance : tolerance of the iteration of films and temperatures.
+    last : the last film.
     """
 
     heating: Heating[Any]
-    last: LastFilm = field(default_factory=LastFilm)
     tolerance: float = FIELD_TOLERANCE
+    last: LastFilm = field(default_factory=LastFilm)
 
     def film(self, *, tolerance: float, ruptures: bool) -> Callable[[Solution], Solution]:
         """heated(solution), the film on a grid with the viscosities of its temperatures.
@@ -191,35 +117,33 @@ class HeatedBearing:
         """
 
         def heated(solution: Solution) -> Solution:
-            found = heated_film(
-                solution,
-                self.heating,
-                near=self.last.heated,
-                residual=tolerance,
-                ruptures=ruptures,
-                tolerance=self.tolerance,
-            )
-            self.last.keep(found)
-            return found
+            def again(film: _Film, values: Array) -> _Film:
+                varied = nodal_field(film.solution, values)
+                return _Film(with_viscosities(film.solution, varied, tolerance=tolerance, ruptures=ruptures))
+
+            return self._coupled(_Film(solution), again)[1]
 
         return heated
 
-    def films(
-        self, isothermal: Callable[[Bearing, int], SeparableBearing[Any]]
-    ) -> Callable[[Bearing, int], SeparableBearing[Any]]:
-        """films(scene, cells), the films among which that under a load is sought.
+    def loaded(self) -> Callable[[SeparableBearing[Any], Search[Any]], Any]:
+        """heated(films, search), the film of a grid that carries a load with the viscosities of its temperatures.
 
-        Parameters
-        ----------
-        isothermal : the same films with the viscosity of the scene.
+        The load is sought among films with given viscosities, and the viscosities are those of the film that was found.
         """
 
-        def films(scene: Bearing, cells: int) -> HeatedFilms:
-            plain = isothermal(scene, cells)
-            assert isinstance(plain, AnyFilms)
-            return HeatedFilms(isothermal=plain, heating=self.heating, last=self.last, tolerance=self.tolerance)
+        def heated(films: SeparableBearing[Any], search: Search[Any]) -> AnyState:
+            assert isinstance(films, AnyFilms)
 
-        return films
+            def again(near: AnyState, values: Array) -> AnyState:
+                found: AnyState = search(_with_viscosities(films, in_scene(near.solution, values)), near)
+                return found
+
+            first = search(_with_viscosities(films, self.last.viscosities), None)
+            film, solution = self._coupled(first, again)
+            loaded: AnyState = replace(film, solution=solution)
+            return loaded
+
+        return heated
 
     def placed(self) -> Callable[[WithField], PlacedFilm]:
         """heated(at), the film of a wall that moves freely on a grid, with the viscosities of its temperatures."""
@@ -228,11 +152,14 @@ class HeatedBearing:
             def again(film: PlacedFilm, values: Array) -> PlacedFilm:
                 return at(in_scene(film.solution, values), film)
 
-            found = coupled(
-                at(self.last.viscosities, None), again, self.heating, near=self.last.heated, tolerance=self.tolerance
-            )
-            solution = heated_solution(found.film.solution, found)
-            self.last.keep(solution)
-            return replace(found.film, heated=solution)
+            film, solution = self._coupled(at(self.last.viscosities, None), again)
+            return replace(film, heated=solution)
 
         return heated
+
+    def _coupled(self, first: FilmT, again: Callable[[FilmT, Array], FilmT]) -> tuple[FilmT, HeatedSolution]:
+        """The film that agrees with its temperatures, from a first one, and its solution with the temperatures."""
+        found = coupled(first, again, self.heating, near=self.last.heated, tolerance=self.tolerance)
+        solution = heated_solution(found.film.solution, found)
+        self.last.keep(solution)
+        return found.film, solution

@@ -1,0 +1,40 @@
+"""The film whose temperature varies over its plane, as the mean across it, between walls that take no heat."""
+
+from dataclasses import replace
+
+from roughfilm.contact.foundation.deferred import deferred
+from roughfilm.rom.bearing.model import SOURCES, bearing_model
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.applies import has_temperature
+from roughfilm.rom.ladder.model import Effect
+
+FILMS = 3.0
+"""CPU time over that of an isothermal film."""
+
+_MODEL = bearing_model(
+    name="adiabatic",
+    summary="adds the temperature over the film, walls take no heat",
+    keeps=frozenset(
+        {
+            Effect.SIDE_FLOW,
+            Effect.CAVITATION,
+            Effect.PRESSURE_DEPENDENCE,
+            Effect.ROUGHNESS,
+            Effect.DEFORMATION,
+            Effect.PLASTICITY,
+            Effect.HEATING,
+            Effect.TEMPERATURE_FIELD,
+        }
+    ),
+    sources=(*SOURCES, "10.1016/S0020-7403(62)80038-1"),
+    applies=has_temperature,
+    in_plane=4e-6,
+)
+
+
+def cost(scene: Bearing, cells: int) -> float:
+    """The expected CPU seconds: those of the film and of its temperatures."""
+    return FILMS * _MODEL.cost(scene, cells)
+
+
+MODEL = replace(_MODEL, cost=cost, compute=deferred("rom.bearing.thermal.field.adiabatic", "solve_adiabatic"))

@@ -1,0 +1,93 @@
+"""The temperatures of a film and its heat flows, of any model of them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.cavitation.fluid import Viscosities
+from roughfilm.rom.cavitation.grid import Grid
+from roughfilm.rom.cavitation.interpolation import interpolated
+from roughfilm.rom.cavitation.solve import Solution
+
+SAME = 1e-4
+"""Difference of two temperatures over the rise of the temperature in the film, below which both are the largest."""
+
+ROUNDED = 9
+"""Decimals to which distances from the middle of the width are compared."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mixture:
+    """The lubricant at the inlet.
+
+    Attributes
+    ----------
+    temperature : temperature of the mixture of new and hot lubricant, K.
+    slope : change of the mixture with the temperature at the inlet, by what returns.
+    """
+
+    temperature: float
+    slope: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeatedFilm:
+    """The temperatures of a film; heat flows in W (W/m if infinitely wide).
+
+    generated = to_lubricant + to_fixed_wall + to_sliding_wall, but for ``imbalance``.
+
+    Attributes
+    ----------
+    grid : the grid of the film.
+    temperature : mean temperature of the lubricant across the film at the nodes, K, shape (nx, ny).
+    viscosities : viscosities at the nodes.
+    highest : largest temperature in the film, K.
+    place : position (x, y) of the largest temperature, in the coordinates of the problem.
+    inlet : the mixture at the inlet; None of films without an inlet or without returning lubricant.
+    outlet : temperature of the lubricant that leaves the film, K; None if none leaves.
+    generated : power that becomes heat.
+    to_lubricant : heat that the lubricant takes away.
+    to_fixed_wall, to_sliding_wall : heat into the walls.
+    imbalance : error of the heat balance over the heat flows.
+    shaft : temperature of a turning shaft, K; None of another wall.
+    walls : temperatures of walls at the nodes, K, shape (nx, ny), by the name of the field.
+    start : what the next iteration starts from.
+    """
+
+    grid: Grid
+    temperature: Array
+    viscosities: Viscosities
+    highest: float
+    place: tuple[float, float]
+    inlet: Mixture | None
+    outlet: float | None
+    generated: float
+    to_lubricant: float
+    to_fixed_wall: float
+    to_sliding_wall: float
+    imbalance: float
+    shaft: float | None = None
+    walls: Mapping[str, Array] = field(default_factory=dict)
+    start: object = None
+
+
+def hottest(temperature: Array, grid: Grid) -> tuple[float, float]:
+    """The position (x, y) of the largest temperature: the first along, and there the nearest to the middle."""
+    most = float(temperature.max())
+    hot = temperature >= most - SAME * (most - float(temperature.min()))
+    i = int(np.argmax(hot.any(axis=1)))
+    rows = np.flatnonzero(hot[i])
+    middle = float(grid.y[0] + grid.y[-1]) / 2
+    j = rows[int(np.argmin(np.round(np.abs(grid.y[rows] - middle) / (abs(middle) or 1.0), ROUNDED)))]
+    return float(grid.x[i]), float(grid.y[j])
+
+
+def start_of(near: HeatedFilm | None, solution: Solution) -> Array | None:
+    """The mean temperatures of a film at the nodes of another one, K; None without a film."""
+    if near is None:
+        return None
+    if near.temperature.shape == solution.grid.shape:
+        return near.temperature
+    return interpolated((near.temperature,), near.grid, solution.grid, solution.problem.shape.joined)[0]

@@ -1,0 +1,202 @@
+"""The temperature of the lubricant that enters a film: new lubricant and hot lubricant from the film before."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.contact.foundation.units import ZERO_CELSIUS
+from roughfilm.rom.bearing.geometry.journal import Shaft
+from roughfilm.rom.bearing.geometry.ring import Ring
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.field.coupling import HOTTEST
+from roughfilm.rom.bearing.thermal.tables import Heat
+from roughfilm.rom.cavitation.evaluation.flows import flow_along, node_balances
+from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.lubricants.liquid import Liquid
+
+HeatedT = TypeVar("HeatedT")
+
+MIXED = 1e-4
+"""Error of the temperature of a mixture, K, at which its iteration stops."""
+
+LEAST_STEP = 0.01
+"""Smallest step of the temperature at the inlet, K, from which the slope of the mixture is taken."""
+
+LEAST_CHANGE = 1e-9
+"""Change of a temperature, K, at which it belongs to its heat."""
+
+MAX_MIXTURES = 40
+"""Largest number of temperatures of a mixture that are tried."""
+
+FIRST_SLOPE = 0.5
+"""Change of the mixture at the inlet with the temperature there, over its share of hot lubricant, at the beginning."""
+
+STEEPEST = 0.98
+"""Largest change of a mixture with the temperature at the inlet by which its iteration extrapolates."""
+
+LEAST_KEPT = 1e-6
+"""Part of the hot lubricant that at least stays in a film behind a groove."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Returning:
+    """The hot lubricant that leaves a film at its end and enters the next one with new lubricant.
+
+    Attributes
+    ----------
+    inlet : whether lubricant enters at a node through the inlet, shape (nx, ny).
+    leaving : flow that leaves at the nodes of the end, m³/s, shape (nx, ny).
+    share : hot lubricant over all that enters through the inlet.
+    new : temperature of the new lubricant there, K.
+    """
+
+    inlet: NDArray[np.bool_]
+    leaving: Array
+    share: float
+    new: float
+
+    def mixture(self, liquid: Liquid, temperature: Array) -> float:
+        """The temperature of the mixture, K, from those of the nodes, shape (nx, ny)."""
+        hot = float((self.leaving * liquid.heat(temperature)[0]).sum() / self.leaving.sum())
+        cold = float(liquid.heat(np.array([self.new]))[0][0])
+        return temperature_of(liquid, self.share * hot + (1 - self.share) * cold)
+
+
+def temperature_of(liquid: Liquid, heat: float) -> float:
+    """The temperature, K, at which a liquid has a heat, J/m³."""
+    temperature = np.array([liquid.temperature])
+    for _ in range(MAX_MIXTURES):
+        value, capacity = liquid.heat(temperature)
+        change = (heat - value) / capacity
+        temperature = temperature + change
+        if abs(change[0]) <= LEAST_CHANGE:
+            break
+    return float(temperature[0])
+
+
+def new_lubricant(scene: Bearing, solution: Solution, supplied: float) -> Array:
+    """The temperature of new lubricant at the nodes, K, shape (nx, ny), where it enters.
+
+    That of a supply is its own, that at the inlet and in gaps between films that of the inlet, and everywhere else that
+    of the supplied lubricant.
+
+    Parameters
+    ----------
+    supplied : temperature of the supplied lubricant, K.
+    """
+    grid, shape = solution.grid, solution.problem.shape
+    x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
+    temperature = np.full(grid.shape, supplied)
+    at_inlet = scene.boundary.inlet.temperature
+    if at_inlet is not None:
+        temperature[gap_nodes(solution) if shape.joined[0] else np.arange(grid.shape[0]) == 0] = at_inlet
+    for one, inflow in zip(scene.supply, solution.problem.inflows, strict=True):
+        if one.temperature is not None:
+            temperature[inflow.covers(x, y)] = one.temperature
+    return temperature
+
+
+def gap_nodes(solution: Solution) -> NDArray[np.bool_]:
+    """Whether the nodes of each x lie in a gap between films or at its ends, shape (nx,)."""
+    grid, shape = solution.grid, solution.problem.shape
+    if not shape.idle:
+        return np.zeros(grid.shape[0], dtype=bool)
+    within = shape.is_idle(grid.x + grid.spacing_x / 2)
+    return np.asarray(within | np.roll(within, 1))
+
+
+def returning(scene: Bearing, solution: Solution, new: Array) -> Returning | None:
+    """The hot lubricant that enters a film again; None of a single pad and of films that have no end.
+
+    The next film of a pad of a ring is the next pad, and that of a bore with one inlet is itself. ``carried_over``
+    times what leaves at the end enters again, at most all that enters.
+
+    Parameters
+    ----------
+    new : temperature of new lubricant at the nodes, K, shape (nx, ny).
+    """
+    if solution.network.periodic[0] or not isinstance(scene.geometry, Ring | Shaft):
+        return None
+    net = node_balances(solution)
+    inlet, end = np.zeros(net.shape, dtype=bool), np.zeros(net.shape, dtype=bool)
+    inlet[0], end[-1] = net[0] > 0, net[-1] < 0
+    leaving, entering = np.where(end, -net, 0.0), float(net[inlet].sum())
+    carried = min((scene.heat or Heat()).carried_over * float(leaving.sum()), entering)
+    if carried <= 0:
+        return None
+    return Returning(inlet=inlet, leaving=leaving, share=carried / entering, new=float(new[0].mean()))
+
+
+def replaced(scene: Bearing, solution: Solution, liquid: Liquid) -> Array:
+    """The heat transfer coefficient, W/(m² K), that stands for hot lubricant which new lubricant replaces in a groove.
+
+    Where lubricant flows from a film into a gap or a supply, the part 1 - ``carried_over`` of it is replaced: with its
+    flow F and ρ c at the supply, a heat transfer F ρ c (1/carried_over - 1) lowers its temperature above that of the
+    new lubricant by the factor ``carried_over``. Shape (nx, ny); 0 where nothing is replaced.
+    """
+    grid, kept = solution.grid, max((scene.heat or Heat()).carried_over, LEAST_KEPT)
+    covered = np.zeros(grid.shape, dtype=bool)
+    if kept < 1:
+        x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
+        covered[gap_nodes(solution)] = True
+        for inflow in solution.problem.inflows:
+            covered |= inflow.covers(x, y)
+    if not covered.any():
+        return np.zeros(grid.shape)
+    arriving = np.roll(flow_along(solution), 1, axis=0)
+    first = covered & ~np.roll(covered, 1, axis=0) & (arriving > 0)
+    capacity = float(liquid.heat(np.array([liquid.temperature]))[1][0])
+    return np.where(first, arriving * capacity * (1 / kept - 1) / grid.areas, 0.0)
+
+
+def at_mixture(
+    solve: Callable[[float, HeatedT | None], HeatedT],
+    image: Callable[[HeatedT], float],
+    first: float,
+    slope: float,
+    near: HeatedT | None,
+) -> tuple[HeatedT, float, float]:
+    """The temperatures of a film whose inlet has the temperature of the mixture that they bring about.
+
+    The heat that leaves grows by less than the heat that enters, since warmer lubricant is thinner, so that the mixture
+    contracts by at most its share of hot lubricant and what stays in the film; the iteration extrapolates this slope.
+
+    Parameters
+    ----------
+    solve : solve(temperature, near), the temperatures of the film, K, for a temperature at the inlet.
+    image : image(temperatures), the temperature of their mixture, K.
+    first, slope : temperature at the inlet from which the iteration starts, K, and the change of the mixture with it.
+
+    Returns
+    -------
+    temperatures, inlet, slope
+        The temperatures of the film, that at the inlet, K, and the change of the mixture with it.
+
+    Raises
+    ------
+    ConvergenceError
+        If the mixture does not converge.
+    """
+    inlet, before = first, None
+    for _ in range(MAX_MIXTURES):
+        near = solve(inlet, near)
+        rest = image(near) - inlet
+        if before is not None and abs(inlet - before[0]) >= LEAST_STEP:
+            slope = min(max(1 + (rest - before[1]) / (inlet - before[0]), 0.0), STEEPEST)
+        if abs(rest) <= MIXED:
+            return near, inlet, slope
+        if inlet > HOTTEST:
+            break
+        before, inlet = (inlet, rest), inlet + rest / (1 - slope)
+    raise ConvergenceError(
+        f"temperature: thermal runaway, hot lubricant enters the film again and heats its inlet to "
+        f"{inlet - ZERO_CELSIUS:.4g} degC and above; lower heat.carried_over, or let more new lubricant in through "
+        "sides or supplies",
+        outcome=Outcome.DIVERGED,
+        iterations=MAX_MIXTURES,
+    )

@@ -1,0 +1,403 @@
+"""The temperature over a film and across it."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
+from roughfilm.rom.cavitation.fluid import Viscosities
+from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.temperature.basis import Basis, basis
+from roughfilm.rom.temperature.equations import Audit, Equations, Plane, audited, equations, linearised, plane
+from roughfilm.rom.temperature.power import Carriers, carriers
+from roughfilm.rom.temperature.sweeps import sweep
+from roughfilm.rom.temperature.walls import FixedWall, SlidingWall, TurningWall, WallCondition, condition
+
+MODES = 8
+"""Number of Legendre modes across the film by default."""
+
+TOLERANCE = 1e-6
+"""Mean change of the temperature over its range, after viscosities are renewed, at which the iteration stops."""
+
+RESIDUAL_TOLERANCE = 1e-9
+"""Largest residual of the equations with the last viscosities."""
+
+RENEWALS = 60
+"""Largest number of times that viscosities and equations are renewed."""
+
+SWEEPS = 6
+"""Largest number of sweeps with the same equations before viscosities are renewed."""
+
+FALL = 0.05
+"""Change of a sweep over that of the first one with the same equations, at which the equations are renewed."""
+
+PLACES = 65
+"""Places across the film between which the largest temperature lies."""
+
+NEAR_PEAK = 0.1
+"""Difference from the largest temperature at the points over the range below which a node may have the largest one."""
+
+LEAST_RANGE = 0.01
+"""Range of the temperature, K, below which changes are over this range."""
+
+ROUND_OFF = 256 * float(np.finfo(float).eps)
+"""Round-off of the residuals over the heat that would be conducted across the film by the range of its temperature."""
+
+LAST_SWEEPS = 400
+"""Largest number of sweeps with the last equations."""
+
+LIMITED_RENEWALS = 6
+"""Number of renewals, from the first start on, after which the limited factors of the faces stay the same.
+
+They would keep changing by little where the temperature is uneven, so that the iteration would not converge.
+"""
+
+RESPONSE_SWEEPS = 12
+"""Largest number of sweeps for the first response of a film to the temperature of a turning wall."""
+
+RESPONSE_CHANGE = 0.02
+"""Relative change of that response at which these sweeps stop."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class WallHeat:
+    """The temperature of a wall at the film, K, and the heat flux into it, W/m², each of shape (nx, ny).
+
+    In a cavity both are those of the streamers; the flux is per area of the wall, filled or not.
+    """
+
+    temperature: Array
+    flux: Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeatBalance:
+    """The heat flows of a film, W (W/m if infinitely wide), of a heat that is 0 at the temperature of the liquid.
+
+    dissipation + entering = leaving + sliding_wall + fixed_wall + stored, but for the residual.
+
+    Attributes
+    ----------
+    dissipation : power of sliding and of the pressures of the supplies.
+    entering, leaving : with the lubricant, through ends, sides and supplies.
+    sliding_wall, fixed_wall : into the walls.
+    stored : with the lubricant that the control volumes take up where walls move, and that spills at sides.
+    """
+
+    dissipation: float
+    entering: float
+    leaving: float
+    sliding_wall: float
+    fixed_wall: float
+    stored: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Iterate:
+    """What an iteration leaves for the next one: factors of faces, the count of renewals, and a response.
+
+    Attributes
+    ----------
+    reach : limited factors of the faces in x and in y.
+    renewals : number of renewals of viscosities from the first start on.
+    response : change of the heat by the temperature of a turning wall, J/(m³ K); None for other walls.
+    """
+
+    reach: tuple[Array, Array]
+    renewals: int
+    response: Array | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class TemperatureAcross:
+    """The temperature over a film and across it.
+
+    Attributes
+    ----------
+    temperature : temperatures T at the points across, K, shape (nx, ny, N).
+    points, weights : positions ζ = z/h of the N Gauss points from the sliding wall, and their weights, which sum to 1.
+    mean : mean of T across the film, K, shape (nx, ny).
+    carried : mean of T weighted by the size of the velocity along the sliding, K, shape (nx, ny).
+    viscosities : viscosities across the film at the nodes.
+    sliding_wall, fixed_wall : temperatures of the walls and heat fluxes into them.
+    largest : largest temperature of the film, K.
+    place : position (x, y, ζ) of the largest temperature.
+    balance : heat flows of the film.
+    residual : sum of the sizes of all residuals over the power and the sizes of the heat flows in.
+    change : mean change of T over its range after viscosities were renewed last.
+    sweeps : number of sweeps over the film.
+    shaft : temperature of a turning wall, K; None for other walls.
+    iterate : what a further iteration starts from.
+    """
+
+    temperature: Array
+    points: Array
+    weights: Array
+    mean: Array
+    carried: Array
+    viscosities: Viscosities
+    sliding_wall: WallHeat
+    fixed_wall: WallHeat
+    largest: float
+    place: tuple[float, float, float]
+    balance: HeatBalance
+    residual: float
+    change: float
+    sweeps: int
+    shaft: float | None
+    iterate: Iterate
+
+
+def temperature_across(
+    solution: Solution,
+    liquid: Liquid,
+    *,
+    sliding_wall: SlidingWall,
+    fixed_wall: FixedWall,
+    entering: float | Array | None = None,
+    added_power: Array | None = None,
+    modes: int = MODES,
+    start: TemperatureAcross | None = None,
+    tolerance: float = TOLERANCE,
+    renewals: int | None = None,
+) -> TemperatureAcross:
+    """Solve ρc (u ∂T/∂x + v ∂T/∂y + w ∂T/∂z) = k ∂²T/∂z² + η ((∂u/∂z)² + (∂v/∂z)²) in a film of given flows.
+
+    The temperature is a polynomial of degree ``modes`` - 1 in ζ = z/h, in weak form across the film. The flow through
+    each face is that of the film, with the profiles of the viscosities at T; the dissipation is the power of the film,
+    distributed in the same way. In the plane heat is carried with the flow at each point, by limited linear upwind
+    values: second-order accurate. Streamers of a cavity fill the whole film thickness over a part of the width.
+
+    Parameters
+    ----------
+    sliding_wall, fixed_wall : conditions at ζ = 0 and ζ = 1.
+    entering : temperature of lubricant that enters from outside, K, a number or of shape (nx, ny); by default that of
+        the liquid.
+    added_power : further power that heats the lubricant of each node, such as that of asperities which rub, W, shape
+        (nx, ny); it is distributed across the film as the dissipation.
+    modes : number N of Legendre modes across, from 2.
+    start : a field on the same grid with the same number of modes from which the iteration starts.
+    tolerance : mean change of the temperature over its range, after viscosities are renewed, at which it stops.
+    renewals : number of renewals of the viscosities after which the iteration stops without meeting the tolerance, for
+        a film that changes further; residual and change are those reached.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two modes, the start has another shape, or a wall does not suit the film.
+    ConvergenceError
+        If the iteration does not converge.
+
+    Source: Dowson 1962, doi:10.1016/S0020-7403(62)80038-1.
+    """
+    if modes < 2:
+        raise InputError(f"modes: got {modes}; at least 2 are needed across the film")
+    shape = (*solution.grid.shape, modes)
+    if start is not None and start.temperature.shape != shape:
+        raise InputError(f"start: got a field of shape {start.temperature.shape}; it must be {shape}")
+    given = liquid.temperature if entering is None else entering
+    parts, moved = basis(modes), carriers(solution)
+    if added_power is not None:
+        moved = replace(moved, power=moved.power + added_power)
+    temperature = (
+        np.broadcast_to(np.asarray(given, dtype=float)[..., None], shape) if start is None else start.temperature
+    )
+    warm = float(np.mean(given)) if start is None or start.shaft is None else start.shaft
+    walls = tuple(
+        condition(wall, solution, moved.filling, liquid.temperature, warm) for wall in (sliding_wall, fixed_wall)
+    )
+    film = _Film(
+        solution=solution,
+        liquid=liquid,
+        parts=parts,
+        moved=moved,
+        nodes=plane(solution, liquid, moved.filling, given),
+        walls=(walls[0], walls[1]),
+        entry=walls[0].outside.copy(),
+        turning=isinstance(sliding_wall, TurningWall),
+    )
+    return _solved(film, np.array(temperature), None if start is None else start.iterate, tolerance, renewals)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Film:
+    """What stays the same during an iteration; the temperature outside of the sliding wall is changed in place."""
+
+    solution: Solution
+    liquid: Liquid
+    parts: Basis
+    moved: Carriers
+    nodes: Plane
+    walls: tuple[WallCondition, WallCondition]
+    entry: Array
+    turning: bool
+
+
+def _solved(
+    film: _Film, temperature: Array, before: Iterate | None, tolerance: float, most: int | None
+) -> TemperatureAcross:
+    """Renew viscosities and equations, and sweep, until the temperature no longer changes."""
+    near = linearised(film.liquid, temperature)
+    heat = np.array(np.broadcast_to(film.liquid.heat(temperature)[0], temperature.shape))
+    response = np.zeros(temperature.shape) if film.turning else None
+    done, reach = 0, None
+    if before is not None:
+        done, response = before.renewals, response if before.response is None else before.response.copy()
+        reach = before.reach if done >= LIMITED_RENEWALS else None
+    into_wall, sweeps, renewed, change = np.zeros(temperature.shape[:2]), 0, 0, np.inf
+    while True:
+        viscosity = np.ascontiguousarray(film.liquid.viscosity(near.temperature)[0])
+        system = equations(film.solution, film.moved, film.nodes, film.parts, viscosity, near, film.walls, heat, reach)
+        done, renewed = done + 1, renewed + 1
+        reach = system.reach if done >= LIMITED_RENEWALS else None
+        slope = 0.0 if response is None else _respond(film, system, response)
+        changes = _relaxed(film, system, heat, into_wall, response, slope, FALL, SWEEPS)
+        sweeps, change = sweeps + len(changes), changes[0] / _range(heat, near.inverse_capacity)
+        near = linearised(film.liquid, linearised(film.liquid, near.at(heat)).at(heat))
+        if change <= tolerance or renewed == (most or RENEWALS) or not np.isfinite(change):
+            break
+    checked = audited(system, film.nodes, film.parts, heat, near.rise(heat), film.walls)
+    residual, rounded = _residual(film, system, checked, near.rise(heat))
+    least = max(RESIDUAL_TOLERANCE, rounded)
+    while most is None and residual > least and sweeps < LAST_SWEEPS:
+        sweeps += len(_relaxed(film, system, heat, into_wall, response, slope, 0.0, 2))
+        near = linearised(film.liquid, near.at(heat))
+        checked = audited(system, film.nodes, film.parts, heat, near.rise(heat), film.walls)
+        residual, rounded = _residual(film, system, checked, near.rise(heat))
+        least = max(RESIDUAL_TOLERANCE, rounded)
+    if not np.isfinite(residual) or (most is None and (residual > least or change > tolerance)):
+        raise ConvergenceError(
+            f"temperature across the film: after {sweeps} sweeps it changes by {change:.1e} of its range, with a "
+            f"residual of {residual:.1e}, above the tolerances {tolerance:.1e} and {least:.1e}; take more "
+            "cells, or a lower speed or viscosity",
+            outcome=Outcome.UNFINISHED if np.isfinite(residual) else Outcome.DIVERGED,
+            iterations=sweeps,
+        )
+    following = Iterate(reach=system.reach, renewals=done, response=response)
+    return _result(film, system, heat, near.temperature, checked, residual, change, sweeps, following)
+
+
+def _relaxed(
+    film: _Film,
+    system: Equations,
+    heat: Array,
+    into_wall: Array,
+    response: Array | None,
+    slope: float,
+    fall: float,
+    most: int,
+) -> list[float]:
+    """Sweep until the mean change has fallen; a turning wall takes the temperature at which it gets no heat."""
+    changes: list[float] = []
+    while len(changes) < most and not (changes and changes[-1] <= fall * changes[0]):
+        changes.append(_sweep(film, system, heat, into_wall))
+        if response is not None and slope < 0:
+            step = -float((film.nodes.area * into_wall).sum()) / slope
+            heat += step * response
+            film.walls[0].outside[...] += step
+    return changes
+
+
+def _range(heat: Array, inverse_capacity: Array) -> float:
+    """The range of the heat, J/m³, at least that of ``LEAST_RANGE``."""
+    return max(float(np.ptp(heat)), LEAST_RANGE / float(inverse_capacity.max()))
+
+
+def _sweep(film: _Film, system: Equations, heat: Array, into_wall: Array) -> float:
+    """Sweep down the film and back over the rows into which lubricant flows back; returns the mean change, J/m³."""
+    back = np.flatnonzero((system.along < 0).any(axis=(1, 2)))[::-1]
+    rows = np.concatenate([np.arange(heat.shape[0]), back])
+    parts = (system.along, system.beside, *system.reach, *film.nodes.periodic, *system.solved)
+    sliding, size = film.walls[0], film.parts.points.size
+    wall = film.moved.filling, sliding.history, film.entry, sliding.outside, into_wall
+    return float(sweep(heat, *parts, *wall, rows, np.empty(size), np.empty(size))) / heat.size
+
+
+def _respond(film: _Film, system: Equations, response: Array) -> float:
+    """Sweep the response of the heat to the temperature of a turning wall; returns that of its heat, W/K."""
+    inverse, constant, wall, flux, flux_constant, flux_wall = system.solved
+    alone = replace(system, solved=(inverse, 0 * constant, wall, flux, 0 * flux_constant, flux_wall))
+    unit = replace(film.walls[0], outside=np.ones(flux_wall.shape))
+    into_wall, slope, first = np.zeros(flux_wall.shape), -np.inf, not response.any()
+    of_unit = replace(film, walls=(unit, film.walls[1]), entry=unit.outside)
+    for _ in range(RESPONSE_SWEEPS if first else 1):
+        _sweep(of_unit, alone, response, into_wall)
+        before, slope = slope, float((film.nodes.area * into_wall).sum())
+        if abs(slope - before) <= RESPONSE_CHANGE * abs(slope):
+            break
+    return slope
+
+
+def _residual(film: _Film, system: Equations, checked: Audit, rise: Array) -> tuple[float, float]:
+    """The sum of the sizes of the residuals over the power and the heat flows in, and its round-off."""
+    wrong = float(np.abs(checked.residuals).sum())
+    if film.turning:
+        wrong += abs(float((film.nodes.area * checked.into_sliding).sum()))
+    entering = float(np.abs(system.entering * film.nodes.entering[..., None]).sum())
+    walls = float((film.nodes.area * (np.abs(checked.into_sliding) + np.abs(checked.into_fixed))).sum())
+    scale = float(np.abs(film.moved.power).sum()) + entering + walls
+    rounded = ROUND_OFF * float((film.nodes.conduction * np.abs(rise).max(axis=2)).sum())
+    return (wrong / scale, rounded / scale) if scale > 0 else (wrong, rounded)
+
+
+def _result(
+    film: _Film,
+    system: Equations,
+    heat: Array,
+    temperature: Array,
+    checked: Audit,
+    residual: float,
+    change: float,
+    sweeps: int,
+    iterate: Iterate,
+) -> TemperatureAcross:
+    """The fields and the heat balance of a converged iteration."""
+    parts, nodes = film.parts, film.nodes
+    ends = np.einsum("en,ijn->eij", parts.ends, temperature)
+    largest, place = _largest(film, temperature)
+    through = np.abs(system.along) + np.abs(np.roll(system.along, 1, axis=0))
+    amount = through.sum(axis=2)
+    mean = temperature @ parts.weights
+    carried = np.divide((through * temperature).sum(axis=2), amount, out=mean.copy(), where=amount > 0)
+    balance = HeatBalance(
+        dissipation=float(film.moved.power.sum()),
+        entering=float((system.entering * nodes.entering[..., None]).sum()),
+        leaving=float((system.leaving * heat).sum()),
+        sliding_wall=float((nodes.area * checked.into_sliding).sum()),
+        fixed_wall=float((nodes.area * checked.into_fixed).sum()),
+        stored=float(-(system.stored * (heat @ parts.weights)).sum()),
+    )
+    return TemperatureAcross(
+        temperature=temperature,
+        points=parts.points,
+        weights=parts.weights,
+        mean=mean,
+        carried=carried,
+        viscosities=system.viscosities,
+        sliding_wall=WallHeat(temperature=ends[0], flux=film.moved.filling * checked.into_sliding),
+        fixed_wall=WallHeat(temperature=ends[1], flux=film.moved.filling * checked.into_fixed),
+        largest=largest,
+        place=place,
+        balance=balance,
+        residual=residual,
+        change=change,
+        sweeps=sweeps,
+        shaft=film.liquid.temperature + float(film.walls[0].outside[0, 0]) if film.turning else None,
+        iterate=iterate,
+    )
+
+
+def _largest(film: _Film, temperature: Array) -> tuple[float, tuple[float, float, float]]:
+    """The largest temperature of the polynomials, K, and its position (x, y, ζ).
+
+    Only nodes whose points are almost as hot as the hottest one are searched.
+    """
+    peaks, places = temperature.max(axis=2), np.linspace(0, 1, PLACES)
+    candidates = np.argwhere(peaks >= peaks.max() - NEAR_PEAK * float(np.ptp(temperature)))
+    values = temperature[candidates[:, 0], candidates[:, 1]] @ film.parts.values(places).T
+    node, place = np.unravel_index(int(values.argmax()), values.shape)
+    i, j = candidates[node]
+    grid = film.solution.grid
+    return float(values.max()), (float(grid.x[i]), float(grid.y[j]), float(places[place]))

@@ -1,0 +1,212 @@
+"""The discretised equation of heat over a film and across it, for one temperature field."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.cavitation.fluid import Viscosities
+from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.temperature.basis import Basis
+from roughfilm.rom.temperature.blocks import LANES, blocks, exchange, upward_flows
+from roughfilm.rom.temperature.power import Carriers
+from roughfilm.rom.temperature.profiles import divide, profile
+from roughfilm.rom.temperature.sweeps import audit, reaches
+from roughfilm.rom.temperature.walls import WallCondition
+
+OVERSHOOT = 1e-3
+"""Amount over the range of the heat by which a value at a face may lie outside of those of its nodes."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Linearised:
+    """Temperatures T = T₀ + offset + E/(ρc) near a field, K, over the heat E of a volume, J/m³; shape (nx, ny, N)."""
+
+    supply: float
+    temperature: Array
+    offset: Array
+    inverse_capacity: Array
+
+    def rise(self, heat: Array) -> Array:
+        """T - T₀ at a heat."""
+        return np.asarray(self.offset + heat * self.inverse_capacity)
+
+    def at(self, heat: Array) -> Array:
+        """The temperatures at a heat."""
+        return self.supply + self.rise(heat)
+
+
+def linearised(liquid: Liquid, temperature: Array) -> Linearised:
+    """The temperature over the heat of a liquid near given temperatures."""
+    heat, capacity = liquid.heat(temperature)
+    inverse = 1 / np.broadcast_to(capacity, temperature.shape)
+    return Linearised(
+        supply=liquid.temperature,
+        temperature=temperature,
+        offset=(temperature - liquid.temperature) - heat * inverse,
+        inverse_capacity=inverse,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plane:
+    """The nodes of a film as the loops take them.
+
+    Attributes
+    ----------
+    ratios : lengths of the faces over those of the faces upstream, along and against x and y; 0 where there is none.
+        An end node has the temperature of its half cell, so that the distance to the next node is halved.
+    periodic : whether i is periodic, and j.
+    conduction : A ξ k/h, W/K, shape (nx, ny).
+    area : A ξ, the filled area of the control volumes, m² (m if infinitely wide).
+    entering : heat of the lubricant that enters, J/m³, shape (nx, ny).
+    """
+
+    ratios: tuple[Array, Array, Array, Array]
+    periodic: tuple[bool, bool]
+    conduction: Array
+    area: Array
+    entering: Array
+
+
+def plane(solution: Solution, liquid: Liquid, filling: Array, entering: float | Array) -> Plane:
+    """The nodes of a film for a liquid that enters at a temperature, K, a number or of shape (nx, ny)."""
+    grid, net = solution.grid, solution.network
+    area = grid.areas * filling
+    given = np.broadcast_to(np.asarray(entering, dtype=float), grid.shape)
+    return Plane(
+        ratios=(
+            *_ratios(grid.spacing_x, periodic=net.periodic[0]),
+            *_ratios(grid.spacing_y, periodic=net.periodic[1]),
+        ),
+        periodic=net.periodic,
+        conduction=area * liquid.conductivity / solution.faces.thickness,
+        area=area,
+        entering=np.array(np.broadcast_to(liquid.heat(given)[0], grid.shape)),
+    )
+
+
+def _ratios(spacing: Array, *, periodic: bool) -> tuple[Array, Array]:
+    """Lengths of the faces over those before and behind them."""
+    if periodic:
+        return spacing / np.roll(spacing, 1), spacing / np.roll(spacing, -1)
+    faces = spacing[:-1]
+    if faces.size < 2:
+        return np.zeros_like(spacing), np.zeros_like(spacing)
+    before, behind = faces[:-1].copy(), faces[1:].copy()
+    before[0], behind[-1] = before[0] / 2, behind[-1] / 2
+    return np.concatenate([[0.0], faces[1:] / before, [0.0]]), np.concatenate([faces[:-1] / behind, [0.0, 0.0]])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Equations:
+    """The equations of all points: flows, m³/s, sources, W, and the inverted equations of the nodes.
+
+    Attributes
+    ----------
+    viscosities : those across the film at the nodes.
+    along, beside : flows of the points through the faces towards i + 1 and j + 1.
+    entering, leaving : flows of the points from and to the outside.
+    stored : what leaves the nodes without an unknown flow, at the temperature of each point, shape (nx, ny).
+    upward : flow towards the fixed wall through the surfaces of the points, times their weights.
+    reach : factors of the change upstream of the faces towards i + 1 and j + 1 in the values at the faces.
+    source : heat that enters from outside and the dissipation.
+    solved : the arrays of :func:`roughfilm.rom.temperature.blocks.blocks` from ``inverse`` on.
+    """
+
+    viscosities: Viscosities
+    along: Array
+    beside: Array
+    entering: Array
+    leaving: Array
+    stored: Array
+    upward: Array
+    reach: tuple[Array, Array]
+    source: Array
+    solved: tuple[Array, ...]
+
+
+def equations(
+    solution: Solution,
+    moved: Carriers,
+    nodes: Plane,
+    parts: Basis,
+    viscosity: Array,
+    near: Linearised,
+    walls: tuple[WallCondition, WallCondition],
+    heat: Array,
+    reach: tuple[Array, Array] | None,
+) -> Equations:
+    """The equations with the viscosities at the points, Pa s, and the temperatures near those of ``near``.
+
+    The values at the faces have the factors ``reach``, or are limited for a heat, J/m³, where these are None.
+    """
+    size, shape, net = parts.points.size, viscosity.shape, solution.network
+    drift, push, heating, along, beside, entering, leaving, upward = (np.empty(shape) for _ in range(8))
+    flow, shear, carried, stored = (np.empty(shape[:2]) for _ in range(4))
+    thickness = solution.faces.thickness
+    moving = moved.speed, moved.gradient_x, moved.gradient_y
+    across = parts.points, parts.weights, parts.integrals
+    profile(viscosity, *across, thickness, *moving, drift, push, heating, flow, shear, carried)
+    divide(moved.sliding, moved.pressing, moved.across, drift, push, *nodes.periodic, along, beside)
+    exchange(along, beside, net.supplied, drift, push, net.fixed, *nodes.periodic, entering, leaving, stored)
+    upward_flows(along, beside, entering, leaving, stored, parts.weights, parts.integrals, *nodes.periodic, upward)
+    source = entering * nodes.entering[..., None] + heating * moved.power[..., None]
+    if reach is None:
+        reach = np.empty(shape), np.empty(shape)
+        reaches(heat, along, beside, *nodes.ratios, *nodes.periodic, OVERSHOOT * float(np.ptp(heat)), *reach)
+    sliding, fixed = walls
+    inverse, (constant, wall, flux) = np.empty((*shape, size)), (np.empty(shape) for _ in range(3))
+    flux_constant, flux_wall = np.empty(shape[:2]), np.empty(shape[:2])
+    solved = inverse, constant, wall, flux, flux_constant, flux_wall
+    scratch, right = np.empty((size + 2, size + 2, LANES)), np.empty((size + 2, LANES))
+    blocks(
+        *(along, beside, leaving, stored, upward, source, nodes.conduction, nodes.area),
+        *(near.inverse_capacity, near.offset, sliding.holds, sliding.resistance),
+        *(fixed.holds, fixed.resistance, fixed.outside),
+        *(parts.weights, parts.slopes, parts.stiffness, parts.ends, *reach, *nodes.periodic),
+        *(scratch, right, *solved),
+    )
+    return Equations(
+        viscosities=Viscosities(flow=flow, shear=shear, carried=carried),
+        along=along,
+        beside=beside,
+        entering=entering,
+        leaving=leaving,
+        stored=stored,
+        upward=upward,
+        reach=reach,
+        source=source,
+        solved=solved,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Audit:
+    """Fluxes into the sliding and the fixed wall, W/m² of filled area, shape (nx, ny), and residuals, W."""
+
+    into_sliding: Array
+    into_fixed: Array
+    residuals: Array
+
+
+def audited(
+    system: Equations,
+    nodes: Plane,
+    parts: Basis,
+    heat: Array,
+    rise: Array,
+    walls: tuple[WallCondition, WallCondition],
+) -> Audit:
+    """The fluxes into the walls and the residuals of all equations, of a heat and T - T₀, K."""
+    sliding, fixed = walls
+    rest, into = np.empty(heat.shape), (np.empty(heat.shape[:2]), np.empty(heat.shape[:2]))
+    audit(
+        *(heat, rise, system.along, system.beside, system.leaving, system.stored),
+        *(system.upward, system.source, nodes.conduction, nodes.area),
+        *(sliding.holds, sliding.resistance, sliding.outside, fixed.holds, fixed.resistance, fixed.outside),
+        *(parts.points, parts.weights, parts.slopes, parts.stiffness, parts.ends, *system.reach, *nodes.periodic),
+        *(np.empty(parts.points.size), *into, rest),
+    )
+    return Audit(into_sliding=into[0], into_fixed=into[1], residuals=rest)

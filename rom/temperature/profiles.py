@@ -1,0 +1,60 @@
+"""The velocities and the dissipation across a film, at the Gauss points of every node."""
+
+from roughfilm.contact.foundation.compiled import compiled
+
+
+@compiled
+def profile(viscosity, points, weights, integrals, thickness, speed, gradient_x, gradient_y, drift, push, heating, flow, shear, carried):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+    """Write the velocities by sliding and by pressure over their means, the dissipation over its mean, and viscosities.
+
+    With F(ζ) = ∫ dζ/η and G(ζ) = ∫ ζ dζ/η from the sliding wall, the velocities are in proportion to 1 - F/F(1) and to
+    G(1) F/F(1) - G, and the dissipation to ((η ∂u/∂z)² + (η ∂v/∂z)²)/η. Source: Dowson 1962.
+    """
+    nx, ny, size = viscosity.shape
+    for i in range(nx):
+        for j in range(ny):
+            zeroth, first = 0.0, 0.0
+            for m in range(size):
+                each = weights[m] / viscosity[i, j, m]
+                zeroth += each
+                first += points[m] * each
+            centre, second = first / zeroth, 0.0
+            for m in range(size):
+                second += weights[m] / viscosity[i, j, m] * (points[m] - centre) ** 2
+            flow[i, j], shear[i, j], carried[i, j] = 1.0 / (12.0 * second), 1.0 / zeroth, 2.0 * centre
+            h = thickness[i, j]
+            by_sliding = speed[i, j] / (h * zeroth)
+            along, across = h * gradient_x[i, j], h * gradient_y[i, j]
+            drifting, pushed, heated = 0.0, 0.0, 0.0
+            for m in range(size):
+                sliding, pressing = 0.0, 0.0
+                for n in range(size):
+                    each = integrals[m, n] / viscosity[i, j, n]
+                    sliding += each
+                    pressing += each * (centre - points[n])
+                drift[i, j, m] = zeroth - sliding
+                push[i, j, m] = pressing
+                lever = points[m] - centre
+                stress = along * lever - by_sliding
+                heating[i, j, m] = (stress * stress + across * across * lever * lever) / viscosity[i, j, m]
+                drifting += weights[m] * drift[i, j, m]
+                pushed += weights[m] * push[i, j, m]
+                heated += weights[m] * heating[i, j, m]
+            for m in range(size):
+                drift[i, j, m] *= weights[m] / drifting
+                push[i, j, m] *= weights[m] / pushed
+                heating[i, j, m] = weights[m] * heating[i, j, m] / heated if heated > 0.0 else weights[m]
+
+
+@compiled
+def divide(sliding, pressing, across, drift, push, periodic_x, periodic_y, along, beside):  # type: ignore[no-untyped-def]
+    """Write the flows towards i + 1 and j + 1 of every point, with the mean profiles of both nodes of a face."""
+    nx, ny, size = drift.shape
+    for i in range(nx):
+        after = i + 1 if i + 1 < nx else (0 if periodic_x else i)
+        for j in range(ny):
+            above = j + 1 if j + 1 < ny else (0 if periodic_y else j)
+            c, p, v = 0.5 * sliding[i, j], 0.5 * pressing[i, j], 0.5 * across[i, j]
+            for m in range(size):
+                along[i, j, m] = c * (drift[i, j, m] + drift[after, j, m]) + p * (push[i, j, m] + push[after, j, m])
+                beside[i, j, m] = v * (push[i, j, m] + push[i, above, m])

@@ -1,0 +1,156 @@
+"""Relaxation of the heat in a film, along the flow and back."""
+
+from roughfilm.contact.foundation.compiled import called, compiled, inlined
+from roughfilm.rom.temperature.blocks import outflow
+
+
+@inlined
+def place(i, count, periodic):  # type: ignore[no-untyped-def]
+    """The index of a neighbour, at an end that of the last node."""
+    return i % count if periodic else min(max(i, 0), count - 1)
+
+
+@called
+def limit(flow, behind, own, next_one, after, ahead, back, slack, reach):  # type: ignore[no-untyped-def]
+    """Write the factor of the change upstream in the value at a face, for every point.
+
+    By this factor the value lies between those of the two nodes of the face, but for the slack. A positive flow passes
+    the four nodes in their order, and the face between the middle ones.
+    """
+    for m in range(own.size):
+        onward = flow[m] > 0.0
+        change = own[m] - behind[m] if onward else next_one[m] - after[m]
+        down = next_one[m] - own[m] if onward else own[m] - next_one[m]
+        factor = 0.5 * (ahead if onward else back)
+        allowed = max(down if change > 0.0 else -down, 0.0) + slack
+        reach[m] = allowed / abs(change) if factor * abs(change) > allowed else factor
+
+
+@compiled
+def reaches(heat, along, beside, ahead_x, back_x, ahead_y, back_y, periodic_x, periodic_y, slack, reach_x, reach_y):  # type: ignore[no-untyped-def]  # fmt: skip
+    """Write the factors of the faces towards i + 1 and j + 1 of every point."""
+    nx, ny, _ = heat.shape
+    for i in range(nx):
+        west, east = place(i - 1, nx, periodic_x), place(i + 1, nx, periodic_x)
+        last = place(i + 2, nx, periodic_x)
+        for j in range(ny):
+            own, beyond = heat[i, j], heat[last, j]
+            factors = ahead_x[i], back_x[i], slack, reach_x[i, j]
+            limit(along[i, j], heat[west, j], own, heat[east, j], beyond, *factors)
+            south, north = place(j - 1, ny, periodic_y), place(j + 1, ny, periodic_y)
+            beyond = heat[i, place(j + 2, ny, periodic_y)]
+            factors = ahead_y[j], back_y[j], slack, reach_y[i, j]
+            limit(beside[i, j], heat[i, south], own, heat[i, north], beyond, *factors)
+
+
+@called
+def add(flow, sign, before, nearest, behind, reach, inflow):  # type: ignore[no-untyped-def]
+    """Add the heat that enters a node through a face, less what of the heat that leaves depends on the node behind it.
+
+    The value at the face is that of the node upstream and the change up to it times the factor of the face. Two nodes
+    before the face, the own one and the one behind it follow each other; the flow times ``sign`` enters.
+    """
+    for m in range(inflow.size):
+        f = sign * flow[m]
+        inflow[m] += max(f, 0.0) * (nearest[m] + reach[m] * (nearest[m] - before[m]))
+        inflow[m] -= min(f, 0.0) * reach[m] * behind[m]
+
+
+@inlined
+def gather(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, i, j, inflow):  # type: ignore[no-untyped-def]
+    """Write what flows into node (i, j) at every point, less what of the outflow depends on other nodes."""
+    nx, ny, size = heat.shape
+    west, east = place(i - 1, nx, periodic_x), place(i + 1, nx, periodic_x)
+    for m in range(size):
+        inflow[m] = 0.0
+    if west != i:
+        second = heat[place(i - 2, nx, periodic_x), j]
+        add(along[west, j], 1.0, second, heat[west, j], heat[east, j], reach_x[west, j], inflow)
+    if east != i:
+        second = heat[place(i + 2, nx, periodic_x), j]
+        add(along[i, j], -1.0, second, heat[east, j], heat[west, j], reach_x[i, j], inflow)
+    south, north = place(j - 1, ny, periodic_y), place(j + 1, ny, periodic_y)
+    if south != j:
+        second = heat[i, place(j - 2, ny, periodic_y)]
+        add(beside[i, south], 1.0, second, heat[i, south], heat[i, north], reach_y[i, south], inflow)
+    if north != j:
+        second = heat[i, place(j + 2, ny, periodic_y)]
+        add(beside[i, j], -1.0, second, heat[i, north], heat[i, south], reach_y[i, j], inflow)
+
+
+@compiled
+def sweep(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, inverse, constant, wall, flux, flux_constant, flux_wall, filling, history, entry, outside, into_wall, rows, inflow, fresh):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+    """Solve the equations of the nodes one by one over the given rows, each row up and down.
+
+    Returns the sum of all changes. A half-space takes up the heat of the rows before.
+    """
+    _, ny, size = heat.shape
+    changed = 0.0
+    for row in range(rows.size):
+        i = rows[row]
+        if history.size:
+            for j in range(ny):
+                outside[i, j] = entry[i, j]
+            for k in range(i):
+                each = history[i, k]
+                for j in range(ny):
+                    outside[i, j] += each * filling[k, j] * into_wall[k, j]
+        for turn in range(2 if ny > 1 else 1):
+            for step in range(ny):
+                j = ny - 1 - step if turn else step
+                gather(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, i, j, inflow)
+                own, base, by_wall, matrix = heat[i, j], constant[i, j], wall[i, j], inverse[i, j]
+                temperature = outside[i, j]
+                taken = flux_constant[i, j] + flux_wall[i, j] * temperature
+                for m in range(size):
+                    fresh[m] = base[m] + by_wall[m] * temperature
+                    taken += flux[i, j, m] * inflow[m]
+                for n in range(size):
+                    each = inflow[n]
+                    for m in range(size):
+                        fresh[m] += matrix[n, m] * each
+                for m in range(size):
+                    changed += abs(fresh[m] - own[m])
+                    own[m] = fresh[m]
+                into_wall[i, j] = taken
+    return changed
+
+
+@compiled
+def audit(heat, temperature, along, beside, leaving, stored, upward, source, conduction, area, holds_0, resistance_0, outside_0, holds_1, resistance_1, outside_1, points, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, inflow, into_0, into_1, rest):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+    """Write the fluxes into both walls and the residuals of the equations of every node, W, of the given heat.
+
+    ``source`` is what enters and the dissipation. A wall at a given temperature takes the flux that balances the node.
+    """
+    nx, ny, size = heat.shape
+    for i in range(nx):
+        before = i - 1 if i > 0 else (nx - 1 if periodic_x else -1)
+        for j in range(ny):
+            below = j - 1 if j > 0 else (ny - 1 if periodic_y else -1)
+            gather(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, i, j, inflow)
+            own, t = heat[i, j], temperature[i, j]
+            total, high, low_end, high_end = 0.0, 0.0, 0.0, 0.0
+            for m in range(size):
+                out = leaving[i, j, m] - weights[m] * stored[i, j]
+                out += outflow(along, beside, reach_x, reach_y, before, below, i, j, m)
+                lacks = inflow[m] + source[i, j, m] - out * own[m]
+                for n in range(size):
+                    lacks += slopes[n, m] * upward[i, j, n] * own[n] - conduction[i, j] * stiffness[m, n] * t[n]
+                rest[i, j, m] = lacks
+                total += lacks
+                high += points[m] * lacks
+                low_end += ends[0, m] * t[m]
+                high_end += ends[1, m] * t[m]
+            given_0, given_1 = resistance_0[i, j] == 0.0, resistance_1[i, j] == 0.0
+            first = 0.0 if given_0 else holds_0 * (low_end - outside_0[i, j]) / resistance_0[i, j]
+            second = 0.0 if given_1 else holds_1 * (high_end - outside_1[i, j]) / resistance_1[i, j]
+            if given_0 and given_1:
+                second = high / area[i, j]
+                first = total / area[i, j] - second
+            elif given_0:
+                first = total / area[i, j] - second
+            elif given_1:
+                second = total / area[i, j] - first
+            into_0[i, j], into_1[i, j] = first, second
+            for m in range(size):
+                rest[i, j, m] -= area[i, j] * (ends[0, m] * first + ends[1, m] * second)
