@@ -335,6 +335,7 @@ KIND = Kind(
     absent=absent_effects,
     composed=composed,
     variants={"free_bearing": free, "placed_bearing": placed},
+    additions=("heated_bearing",),
     steady=steady,
     without_time=Bearing.without_time,
     in_time=in_time,

@@ -52,6 +52,10 @@ class Effect(StrEnum):
     """Temperature that varies across the film, from wall to wall."""
 
 
+OF_LUBRICANT = frozenset({Effect.SHEAR_THINNING, Effect.HEATING, Effect.TEMPERATURE_FIELD, Effect.TEMPERATURE_ACROSS})
+"""The effects on the viscosity, which only some lubricants have."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Applicability:
     """Whether a model applies to a scene, with the reason, or the effects that it leaves out, in words."""
