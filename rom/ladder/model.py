@@ -354,11 +354,16 @@ def best_for(scene: Scene, models: Sequence[Model]) -> Model:
     return max(models, key=lambda model: (-kind.missing(scene, model), len(model.keeps - absent), model.complete))
 
 
-def one_effect_away(model: Model, models: Sequence[Model]) -> tuple[tuple[Model, Effect], ...]:
-    """The models that keep all effects of ``model`` and one more, each with that effect; all are complete models."""
+def one_effect_away(
+    model: Model, models: Sequence[Model], absent: frozenset[str] = frozenset()
+) -> tuple[tuple[Model, Effect], ...]:
+    """The models that keep all effects of ``model`` and one more, each with that effect; all are complete models.
+
+    Effects that are ``absent`` from a scene do not count.
+    """
     pairs = []
     for other in models:
-        extra = other.keeps - model.keeps
-        if model.complete and other.complete and model.keeps < other.keeps and len(extra) == 1:
+        extra = other.keeps - model.keeps - absent
+        if model.complete and other.complete and model.keeps - absent < other.keeps and len(extra) == 1:
             pairs.append((other, next(iter(extra))))
     return tuple(pairs)
