@@ -15,6 +15,9 @@ from roughfilm.rom.lubricants.thermal.tabulated import MIN_ROWS
 from roughfilm.rom.parts.columns_file import MAX_ROWS
 from roughfilm.rom.parts.solids import Counter, HeatConductor, RoughBody
 
+FLASH = ("flash_temperature", "flash_temperature_low", "flash_temperature_high")
+"""Names of the estimates of the flash temperature, which have no uncertainty but a range."""
+
 DEFAULT_FRICTION = 0.1
 """Coefficient of boundary friction where none is given."""
 

@@ -17,9 +17,6 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.parts.solids import HeatConductor, composite_modulus, hardness
 from roughfilm.rom.temperature.closed_forms.moving_sources import moving_circle
 
-FLASH = ("flash_temperature", "flash_temperature_low", "flash_temperature_high")
-"""Names of the estimates of the flash temperature, which have no uncertainty but a range."""
-
 SPOT_TOLERANCE = 1e-4
 """Complementarity error of the contact over the rms height."""
 

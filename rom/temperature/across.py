@@ -12,13 +12,13 @@ from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.basis import Basis, basis
 from roughfilm.rom.temperature.equations import Audit, Equations, Plane, audited, equations, linearised, plane
 from roughfilm.rom.temperature.power import Carriers, carriers
-from roughfilm.rom.temperature.sweeps import sweep
+from roughfilm.rom.temperature.sweeps import summarise, sweep
 from roughfilm.rom.temperature.walls import FixedWall, SlidingWall, TurningWall, WallCondition, condition
 
 MODES = 8
 """Number of Legendre modes across the film by default."""
 
-TOLERANCE = 1e-6
+TOLERANCE = 1e-5
 """Mean change of the temperature over its range, after viscosities are renewed, at which the iteration stops."""
 
 RESIDUAL_TOLERANCE = 1e-9
@@ -36,7 +36,7 @@ FALL = 0.05
 PLACES = 65
 """Places across the film between which the largest temperature lies."""
 
-NEAR_PEAK = 0.1
+NEAR_PEAK = 0.02
 """Difference from the largest temperature at the points over the range below which a node may have the largest one."""
 
 LEAST_RANGE = 0.01
@@ -80,7 +80,7 @@ class HeatBalance:
 
     Attributes
     ----------
-    dissipation : power of sliding and of the pressures of the supplies.
+    dissipation : power of sliding and of the pressures of the supplies, with the viscosities at T.
     entering, leaving : with the lubricant, through ends, sides and supplies.
     sliding_wall, fixed_wall : into the walls.
     stored : with the lubricant that the control volumes take up where walls move, and that spills at sides.
@@ -103,11 +103,13 @@ class Iterate:
     reach : limited factors of the faces in x and in y.
     renewals : number of renewals of viscosities from the first start on.
     response : change of the heat by the temperature of a turning wall, J/(m³ K); None for other walls.
+    slope : change of the heat flow into a turning wall by its temperature, W/K.
     """
 
     reach: tuple[Array, Array]
     renewals: int
     response: Array | None
+    slope: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -166,9 +168,12 @@ def temperature_across(
     """Solve ρc (u ∂T/∂x + v ∂T/∂y + w ∂T/∂z) = k ∂²T/∂z² + η ((∂u/∂z)² + (∂v/∂z)²) in a film of given flows.
 
     The temperature is a polynomial of degree ``modes`` - 1 in ζ = z/h, in weak form across the film. The flow through
-    each face is that of the film, with the profiles of the viscosities at T; the dissipation is the power of the film,
-    distributed in the same way. In the plane heat is carried with the flow at each point, by limited linear upwind
-    values: second-order accurate. Streamers of a cavity fill the whole film thickness over a part of the width.
+    each face is that of the film, with the profiles of the viscosities at T. The dissipation of a node is that of the
+    film, W (:func:`roughfilm.rom.temperature.dissipation.dissipation`), times η_s(T)/η_s: shear and flow by pressure
+    both dissipate in proportion to the viscosity while the flows stay, so that films and fields in turn converge as
+    those of :func:`roughfilm.rom.temperature.mean.mean_temperature`. In the plane heat is carried with the flow at each
+    point, by limited linear upwind values: second-order accurate. Streamers of a cavity fill the whole film thickness
+    over a part of the width.
 
     Parameters
     ----------
@@ -192,6 +197,8 @@ def temperature_across(
 
     Source: Dowson 1962, doi:10.1016/S0020-7403(62)80038-1.
     """
+    if renewals is not None and renewals < 1:
+        raise InputError(f"renewals: got {renewals}; at least 1 is needed")
     if modes < 2:
         raise InputError(f"modes: got {modes}; at least 2 are needed across the film")
     shape = (*solution.grid.shape, modes)
@@ -242,21 +249,24 @@ def _solved(
     near = linearised(film.liquid, temperature)
     heat = np.array(np.broadcast_to(film.liquid.heat(temperature)[0], temperature.shape))
     response = np.zeros(temperature.shape) if film.turning else None
-    done, reach = 0, None
+    done, reach, slope = 0, None, 0.0
     if before is not None:
-        done, response = before.renewals, response if before.response is None else before.response.copy()
-        reach = before.reach if done >= LIMITED_RENEWALS else None
+        done, reach = before.renewals, before.reach if before.renewals >= LIMITED_RENEWALS else None
+        if film.turning and before.response is not None:
+            response, slope = before.response.copy(), before.slope
     into_wall, sweeps, renewed, change = np.zeros(temperature.shape[:2]), 0, 0, np.inf
+    fixed = film.solution, film.liquid, film.moved, film.nodes, film.parts
+    known: Equations | None = None
     while True:
-        viscosity = np.ascontiguousarray(film.liquid.viscosity(near.temperature)[0])
-        system = equations(film.solution, film.moved, film.nodes, film.parts, viscosity, near, film.walls, heat, reach)
+        known = system = equations(*fixed, near, film.walls, heat, reach, known)
         done, renewed = done + 1, renewed + 1
         reach = system.reach if done >= LIMITED_RENEWALS else None
-        slope = 0.0 if response is None else _respond(film, system, response)
+        if response is not None and (slope == 0 or renewed == 2):
+            slope = _respond(film, system, response)
         changes = _relaxed(film, system, heat, into_wall, response, slope, FALL, SWEEPS)
         sweeps, change = sweeps + len(changes), changes[0] / _range(heat, near.inverse_capacity)
-        near = linearised(film.liquid, linearised(film.liquid, near.at(heat)).at(heat))
-        if change <= tolerance or renewed == (most or RENEWALS) or not np.isfinite(change):
+        near = linearised(film.liquid, near.at(heat))
+        if change <= tolerance or renewed == (RENEWALS if most is None else most) or not np.isfinite(change):
             break
     checked = audited(system, film.nodes, film.parts, heat, near.rise(heat), film.walls)
     residual, rounded = _residual(film, system, checked, near.rise(heat))
@@ -275,7 +285,7 @@ def _solved(
             outcome=Outcome.UNFINISHED if np.isfinite(residual) else Outcome.DIVERGED,
             iterations=sweeps,
         )
-    following = Iterate(reach=system.reach, renewals=done, response=response)
+    following = Iterate(reach=system.reach, renewals=done, response=response, slope=slope)
     return _result(film, system, heat, near.temperature, checked, residual, change, sweeps, following)
 
 
@@ -337,7 +347,7 @@ def _residual(film: _Film, system: Equations, checked: Audit, rise: Array) -> tu
         wrong += abs(float((film.nodes.area * checked.into_sliding).sum()))
     entering = float(np.abs(system.entering * film.nodes.entering[..., None]).sum())
     walls = float((film.nodes.area * (np.abs(checked.into_sliding) + np.abs(checked.into_fixed))).sum())
-    scale = float(np.abs(film.moved.power).sum()) + entering + walls
+    scale = float(np.abs(_power(film, system, rise)).sum()) + entering + walls
     rounded = ROUND_OFF * float((film.nodes.conduction * np.abs(rise).max(axis=2)).sum())
     return (wrong / scale, rounded / scale) if scale > 0 else (wrong, rounded)
 
@@ -355,19 +365,18 @@ def _result(
 ) -> TemperatureAcross:
     """The fields and the heat balance of a converged iteration."""
     parts, nodes = film.parts, film.nodes
-    ends = np.einsum("en,ijn->eij", parts.ends, temperature)
-    largest, place = _largest(film, temperature)
-    through = np.abs(system.along) + np.abs(np.roll(system.along, 1, axis=0))
-    amount = through.sum(axis=2)
-    mean = temperature @ parts.weights
-    carried = np.divide((through * temperature).sum(axis=2), amount, out=mean.copy(), where=amount > 0)
+    mean, carried, peaks, low, high = (np.empty(nodes.area.shape) for _ in range(5))
+    written = mean, carried, peaks, low, high
+    flows = system.along, system.leaving, system.stored
+    leaving, stored = summarise(temperature, heat, *flows, parts.weights, parts.ends, nodes.periodic[0], *written)
+    largest, place = _largest(film, temperature, peaks)
     balance = HeatBalance(
-        dissipation=float(film.moved.power.sum()),
-        entering=float((system.entering * nodes.entering[..., None]).sum()),
-        leaving=float((system.leaving * heat).sum()),
+        dissipation=float(_power(film, system, temperature - film.liquid.temperature).sum()),
+        entering=float((system.entering.sum(axis=2) * nodes.entering).sum()),
+        leaving=float(leaving),
         sliding_wall=float((nodes.area * checked.into_sliding).sum()),
         fixed_wall=float((nodes.area * checked.into_fixed).sum()),
-        stored=float(-(system.stored * (heat @ parts.weights)).sum()),
+        stored=float(stored),
     )
     return TemperatureAcross(
         temperature=temperature,
@@ -376,8 +385,8 @@ def _result(
         mean=mean,
         carried=carried,
         viscosities=system.viscosities,
-        sliding_wall=WallHeat(temperature=ends[0], flux=film.moved.filling * checked.into_sliding),
-        fixed_wall=WallHeat(temperature=ends[1], flux=film.moved.filling * checked.into_fixed),
+        sliding_wall=WallHeat(temperature=low, flux=film.moved.filling * checked.into_sliding),
+        fixed_wall=WallHeat(temperature=high, flux=film.moved.filling * checked.into_fixed),
         largest=largest,
         place=place,
         balance=balance,
@@ -389,13 +398,20 @@ def _result(
     )
 
 
-def _largest(film: _Film, temperature: Array) -> tuple[float, tuple[float, float, float]]:
+def _power(film: _Film, system: Equations, rise: Array) -> Array:
+    """The dissipation of the nodes, W, linear in T - T₀."""
+    softer = np.einsum("ijn,ijn->ij", system.softening, rise)
+    entering = system.entering.sum(axis=2) * film.nodes.entering
+    return np.asarray(system.source.sum(axis=2) - entering + system.heating.sum(axis=2) * softer)
+
+
+def _largest(film: _Film, temperature: Array, peaks: Array) -> tuple[float, tuple[float, float, float]]:
     """The largest temperature of the polynomials, K, and its position (x, y, ζ).
 
     Only nodes whose points are almost as hot as the hottest one are searched.
     """
-    peaks, places = temperature.max(axis=2), np.linspace(0, 1, PLACES)
-    candidates = np.argwhere(peaks >= peaks.max() - NEAR_PEAK * float(np.ptp(temperature)))
+    places = np.linspace(0, 1, PLACES)
+    candidates = np.argwhere(peaks >= peaks.max() - NEAR_PEAK * float(np.ptp(peaks)))
     values = temperature[candidates[:, 0], candidates[:, 1]] @ film.parts.values(places).T
     node, place = np.unravel_index(int(values.argmax()), values.shape)
     i, j = candidates[node]

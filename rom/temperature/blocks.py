@@ -2,7 +2,7 @@
 
 from roughfilm.contact.foundation.compiled import called, compiled, inlined
 
-LANES = 16
+LANES = 32
 """Number of nodes whose matrices are inverted at a time."""
 
 
@@ -74,51 +74,87 @@ def outflow(along, beside, reach_x, reach_y, before, below, i, j, m):  # type: i
 
 
 @called
-def invert(matrix, size, lanes):  # type: ignore[no-untyped-def]
-    """Replace matrices (size, size, lanes), positive definite but for the conditions of walls, by their inverses."""
+def invert(matrix, size, factor):  # type: ignore[no-untyped-def]
+    """Replace matrices by their inverses; they are positive definite but for the conditions of walls.
+
+    A row of ``matrix`` has those of all matrices, one after the other in each column; ``factor`` has their number.
+    """
+    lanes = factor.size
     for k in range(size):
+        top = matrix[k]
         for w in range(lanes):
-            matrix[k, k, w] = 1.0 / matrix[k, k, w]
+            factor[w] = 1.0 / top[k * lanes + w]
+            top[k * lanes + w] = 1.0
         for c in range(size):
-            if c != k:
-                for w in range(lanes):
-                    matrix[k, c, w] *= matrix[k, k, w]
+            for w in range(lanes):
+                top[c * lanes + w] *= factor[w]
         for r in range(size):
-            if r != k:
-                for c in range(size):
-                    if c != k:
-                        for w in range(lanes):
-                            matrix[r, c, w] -= matrix[r, k, w] * matrix[k, c, w]
+            if r == k:
+                continue
+            row = matrix[r]
+            for w in range(lanes):
+                factor[w] = row[k * lanes + w]
+                row[k * lanes + w] = 0.0
+            for c in range(size):
                 for w in range(lanes):
-                    matrix[r, k, w] *= -matrix[k, k, w]
+                    row[c * lanes + w] -= factor[w] * top[c * lanes + w]
+
+
+@called
+def multiply(matrix, row, right, size, total):  # type: ignore[no-untyped-def]
+    """Write the products of a row of matrices with right-hand sides."""
+    total[:] = 0.0
+    for n in range(size):
+        part, vector = matrix[row, n], right[n]
+        for w in range(total.size):
+            total[w] += part[w] * vector[w]
 
 
 @compiled
-def blocks(along, beside, leaving, stored, upward, source, conduction, area, inverse_capacity, offset, holds_0, resistance_0, holds_1, resistance_1, outside_1, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, scratch, right, inverse, constant, wall, flux, flux_constant, flux_wall):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+def blocks(along, beside, leaving, stored, upward, source, heating, softening, conduction, area, inverse_capacity, offset, holds_0, resistance_0, holds_1, resistance_1, outside_1, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, scratch, rows, right, lanes, inverse, constant, wall, flux, flux_constant, flux_wall):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """Write the solution of the equations of each node, E = constant + wall T + inverse b, and the flux into the wall.
 
     E is the heat per volume at the points, T the temperature outside of the condition of the sliding wall, and b what
     flows in. The flux is flux_constant + flux_wall T + flux b. The temperature at the points is offset + E
-    inverse_capacity, above that of the supply as all temperatures. The conditions of both walls are equations with the
-    fluxes into them as unknowns.
+    inverse_capacity, above that of the supply as all temperatures. What enters from outside is source + heating times
+    the sum of softening times the temperatures. The conditions of both walls are equations with the fluxes into them as
+    unknowns. ``rows`` is a view of ``scratch``, the matrices of some nodes of a row.
     """
     nx, ny, size = along.shape
-    lanes = scratch.shape[2]
+    conducts, rises, offsets, heats, softens = lanes[0], lanes[1], lanes[2], lanes[3], lanes[4]
+    factor, total, shift, softer = lanes[5, 0], lanes[5, 1], lanes[6, 0], lanes[6, 1]
     for i in range(nx):
         before = i - 1 if i > 0 else (nx - 1 if periodic_x else -1)
-        for start in range(0, ny, lanes):
-            count = min(lanes, ny - start)
+        for start in range(0, ny, total.size):
+            count = min(total.size, ny - start)
+            for w in range(count):
+                j = start + w
+                shift[w] = conduction[i, j]
+                softer[w] = 0.0
+                for n in range(size):
+                    conducts[n, w] = conduction[i, j] * inverse_capacity[i, j, n]
+                    rises[n, w] = upward[i, j, n]
+                    offsets[n, w] = offset[i, j, n]
+                    heats[n, w] = heating[i, j, n]
+                    softens[n, w] = softening[i, j, n] * inverse_capacity[i, j, n]
+                    softer[w] += softening[i, j, n] * offset[i, j, n]
+                    right[n, w] = source[i, j, n]
+            right[size], right[size + 1] = 0.0, 0.0
             for m in range(size):
                 for n in range(size):
                     slope, stiff = slopes[n, m], stiffness[m, n]
-                    for w in range(count):
-                        j = start + w
-                        conducted = stiff * conduction[i, j] * inverse_capacity[i, j, n]
-                        scratch[m, n, w] = conducted - slope * upward[i, j, n]
+                    block, conducted, risen, given, known = scratch[m, n], conducts[n], rises[n], offsets[n], right[m]
+                    heated, softened = heats[m], softens[n]
+                    for w in range(total.size):
+                        block[w] = stiff * conducted[w] - slope * risen[w] - heated[w] * softened[w]
+                        known[w] -= stiff * shift[w] * given[w]
+                for w in range(total.size):
+                    right[m, w] += heats[m, w] * softer[w]
+                    right[size, w] -= holds_0 * ends[0, m] * offsets[m, w]
+                    right[size + 1, w] -= holds_1 * ends[1, m] * offsets[m, w]
             for w in range(count):
                 j = start + w
                 below = j - 1 if j > 0 else (ny - 1 if periodic_y else -1)
-                low, high = 0.0, 0.0
                 for m in range(size):
                     out = leaving[i, j, m] - weights[m] * stored[i, j]
                     scratch[m, m, w] += out + outflow(along, beside, reach_x, reach_y, before, below, i, j, m)
@@ -126,32 +162,23 @@ def blocks(along, beside, leaving, stored, upward, source, conduction, area, inv
                     scratch[m, size + 1, w] = area[i, j] * ends[1, m]
                     scratch[size, m, w] = holds_0 * ends[0, m] * inverse_capacity[i, j, m]
                     scratch[size + 1, m, w] = holds_1 * ends[1, m] * inverse_capacity[i, j, m]
-                    conducted = 0.0
-                    for n in range(size):
-                        conducted += stiffness[m, n] * offset[i, j, n]
-                    right[m, w] = source[i, j, m] - conduction[i, j] * conducted
-                    low += ends[0, m] * offset[i, j, m]
-                    high += ends[1, m] * offset[i, j, m]
-                right[size, w] = -holds_0 * low
-                right[size + 1, w] = holds_1 * (outside_1[i, j] - high)
+                right[size + 1, w] += holds_1 * outside_1[i, j]
                 scratch[size, size, w] = -resistance_0[i, j]
                 scratch[size, size + 1, w] = 0.0
                 scratch[size + 1, size, w] = 0.0
                 scratch[size + 1, size + 1, w] = -resistance_1[i, j]
-            invert(scratch, size + 2, count)
+            invert(rows, size + 2, factor)
+            for m in range(size):
+                multiply(scratch, m, right, size + 2, total)
+                for w in range(count):
+                    constant[i, start + w, m] = total[w]
+            multiply(scratch, size, right, size + 2, total)
             for w in range(count):
                 j = start + w
-                for m in range(size):
-                    total = 0.0
-                    for n in range(size + 2):
-                        total += scratch[m, n, w] * right[n, w]
-                    constant[i, j, m] = total
-                    wall[i, j, m] = holds_0 * scratch[m, size, w]
-                    flux[i, j, m] = scratch[size, m, w]
-                    for n in range(size):
-                        inverse[i, j, n, m] = scratch[m, n, w]
-                total = 0.0
-                for n in range(size + 2):
-                    total += scratch[size, n, w] * right[n, w]
-                flux_constant[i, j] = total
+                flux_constant[i, j] = total[w]
                 flux_wall[i, j] = holds_0 * scratch[size, size, w]
+                for n in range(size):
+                    wall[i, j, n] = holds_0 * scratch[n, size, w]
+                    flux[i, j, n] = scratch[size, n, w]
+                    for m in range(size):
+                        inverse[i, j, n, m] = scratch[m, n, w]

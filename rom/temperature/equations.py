@@ -111,7 +111,9 @@ class Equations:
     stored : what leaves the nodes without an unknown flow, at the temperature of each point, shape (nx, ny).
     upward : flow towards the fixed wall through the surfaces of the points, times their weights.
     reach : factors of the change upstream of the faces towards i + 1 and j + 1 in the values at the faces.
-    source : heat that enters from outside and the dissipation.
+    source : heat that enters from outside, and the part of the dissipation without its change by T - T₀.
+    heating : dissipation at the temperatures at which the viscosities are.
+    softening : derivative of the logarithm of the dissipation of a node by the temperatures of its points, 1/K.
     solved : the arrays of :func:`roughfilm.rom.temperature.blocks.blocks` from ``inverse`` on.
     """
 
@@ -124,49 +126,64 @@ class Equations:
     upward: Array
     reach: tuple[Array, Array]
     source: Array
+    heating: Array
+    softening: Array
     solved: tuple[Array, ...]
 
 
 def equations(
     solution: Solution,
+    liquid: Liquid,
     moved: Carriers,
     nodes: Plane,
     parts: Basis,
-    viscosity: Array,
     near: Linearised,
     walls: tuple[WallCondition, WallCondition],
     heat: Array,
     reach: tuple[Array, Array] | None,
+    before: Equations | None,
 ) -> Equations:
-    """The equations with the viscosities at the points, Pa s, and the temperatures near those of ``near``.
+    """The equations with the viscosities of the temperatures of ``near``, and a dissipation linear near them.
 
-    The values at the faces have the factors ``reach``, or are limited for a heat, J/m³, where these are None.
+    The values at the faces have the factors ``reach``, or are limited for a heat, J/m³, where these are None. The
+    arrays of the equations ``before``, except for these factors, are written again, which saves time.
     """
-    size, shape, net = parts.points.size, viscosity.shape, solution.network
-    drift, push, heating, along, beside, entering, leaving, upward = (np.empty(shape) for _ in range(8))
+    shape, net, size = near.temperature.shape, solution.network, parts.points.size
     flow, shear, carried, stored = (np.empty(shape[:2]) for _ in range(4))
+    viscosity, steepness = (np.ascontiguousarray(values) for values in liquid.viscosity(near.temperature))
+    drift, push = np.empty(shape), np.empty(shape)
+    if before is None:
+        heating, softening, along, beside, entering, leaving, upward = (np.empty(shape) for _ in range(7))
+        solved: tuple[Array, ...] = (
+            np.empty((*shape, size)),
+            *(np.empty(shape) for _ in range(3)),
+            *(np.empty(shape[:2]) for _ in range(2)),
+        )
+    else:
+        heating, softening, along, beside = before.heating, before.softening, before.along, before.beside
+        entering, leaving, upward, solved = before.entering, before.leaving, before.upward, before.solved
     thickness = solution.faces.thickness
     moving = moved.speed, moved.gradient_x, moved.gradient_y
     across = parts.points, parts.weights, parts.integrals
-    profile(viscosity, *across, thickness, *moving, drift, push, heating, flow, shear, carried)
+    profiles = drift, push, heating, softening
+    profile(viscosity, steepness, *across, thickness, *moving, *profiles, flow, shear, carried)
     divide(moved.sliding, moved.pressing, moved.across, drift, push, *nodes.periodic, along, beside)
     exchange(along, beside, net.supplied, drift, push, net.fixed, *nodes.periodic, entering, leaving, stored)
     upward_flows(along, beside, entering, leaving, stored, parts.weights, parts.integrals, *nodes.periodic, upward)
-    source = entering * nodes.entering[..., None] + heating * moved.power[..., None]
     if reach is None:
         reach = np.empty(shape), np.empty(shape)
         reaches(heat, along, beside, *nodes.ratios, *nodes.periodic, OVERSHOOT * float(np.ptp(heat)), *reach)
+    heating *= (moved.fluid_power * shear)[..., None]
+    known = 1 - (softening * (near.temperature - near.supply)).sum(axis=2)
+    source = entering * nodes.entering[..., None] + heating * known[..., None]
     sliding, fixed = walls
-    inverse, (constant, wall, flux) = np.empty((*shape, size)), (np.empty(shape) for _ in range(3))
-    flux_constant, flux_wall = np.empty(shape[:2]), np.empty(shape[:2])
-    solved = inverse, constant, wall, flux, flux_constant, flux_wall
-    scratch, right = np.empty((size + 2, size + 2, LANES)), np.empty((size + 2, LANES))
+    scratch, right = np.ones((size + 2, size + 2, LANES)), np.ones((size + 2, LANES))
     blocks(
-        *(along, beside, leaving, stored, upward, source, nodes.conduction, nodes.area),
+        *(along, beside, leaving, stored, upward, source, heating, softening, nodes.conduction, nodes.area),
         *(near.inverse_capacity, near.offset, sliding.holds, sliding.resistance),
         *(fixed.holds, fixed.resistance, fixed.outside),
         *(parts.weights, parts.slopes, parts.stiffness, parts.ends, *reach, *nodes.periodic),
-        *(scratch, right, *solved),
+        *(scratch, scratch.reshape(size + 2, -1), right, np.ones((7, size, LANES)), *solved),
     )
     return Equations(
         viscosities=Viscosities(flow=flow, shear=shear, carried=carried),
@@ -178,6 +195,8 @@ def equations(
         upward=upward,
         reach=reach,
         source=source,
+        heating=heating,
+        softening=softening,
         solved=solved,
     )
 
@@ -204,7 +223,7 @@ def audited(
     rest, into = np.empty(heat.shape), (np.empty(heat.shape[:2]), np.empty(heat.shape[:2]))
     audit(
         *(heat, rise, system.along, system.beside, system.leaving, system.stored),
-        *(system.upward, system.source, nodes.conduction, nodes.area),
+        *(system.upward, system.source, system.heating, system.softening, nodes.conduction, nodes.area),
         *(sliding.holds, sliding.resistance, sliding.outside, fixed.holds, fixed.resistance, fixed.outside),
         *(parts.points, parts.weights, parts.slopes, parts.stiffness, parts.ends, *system.reach, *nodes.periodic),
         *(np.empty(parts.points.size), *into, rest),

@@ -13,6 +13,7 @@ from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.dissipation import Flows, dissipation, film_flows
+from roughfilm.rom.temperature.properties import over_heat
 from roughfilm.rom.temperature.transport import arrange, carry, extrapolate, limit, sweep
 
 TOLERANCE = 1e-12
@@ -26,6 +27,9 @@ ITERATIONS = 60
 
 MAX_HEATING = 500.0
 """Largest temperature above that of the entering liquid and the walls, K; no law of viscosity holds beyond."""
+
+CLOSED = 1e-8
+"""Largest flow that leaves at a node over that through a face, up to which no liquid leaves a film."""
 
 LOWERED = 3
 """Number of Newton steps after which limited slopes only decrease, so that they settle."""
@@ -48,9 +52,6 @@ CIRCULATION_ITERATIONS = 60
 
 REMEMBERED = 12
 """Largest number of directions that are kept in one step; they take the memory of three fields each."""
-
-ACCURACY = 1e-13
-"""Relative change of a temperature, K, at which it belongs to its heat."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,8 +136,9 @@ def mean_temperature(
     Raises
     ------
     ConvergenceError
-        If the balances do not meet the tolerance, or liquid circulates, gives no heat away and has no steady
-        temperature up to ``MAX_HEATING``. Newton's method approaches it from below, so that it exceeds every iterate.
+        If the balances do not meet the tolerance, or the liquid heats by more than ``MAX_HEATING``, as where it
+        circulates and gives no heat away. Newton's method approaches the temperature from below, so that it exceeds
+        every iterate.
 
     Source: conservation of energy; linear upwind differences, Warming and Beam 1976, doi:10.2514/3.61457.
     """
@@ -144,23 +146,32 @@ def mean_temperature(
     shape = solution.grid.shape
     inlet = np.broadcast_to(liquid.temperature if entering is None else entering, shape)
     walls = np.broadcast_to(liquid.temperature if wall is None else wall, shape)
-    lost = exchange * solution.grid.areas
+    lost = np.asarray(exchange * solution.grid.areas)
     at_nodes = solution.problem.at_nodes
     known = solution.problem.viscosity if at_nodes is None else at_nodes.shear
     power = dissipation(solution, flows)
     fixed_power, relative_power = np.minimum(power, 0.0) + added_power, np.maximum(power, 0.0) / known
     gained = np.maximum(flows.entering, 0.0) * liquid.heat(inlet)[0]
     order, late = _arranged(flows)
+    leaving = np.maximum(-flows.entering, 0.0)
+    largest = max(np.abs(flows.along).max(), np.abs(flows.across).max())
+    if power.any() and not lost.any() and leaving.max() <= CLOSED * largest:
+        raise _runaway(solution, np.unravel_index(int(np.argmax(power)), shape))
 
-    temperature = np.array(inlet if start is None else start, dtype=float)
-    heat = liquid.heat(temperature)[0]
+    heat = np.array(liquid.heat(inlet if start is None else start)[0])
+    properties = over_heat(liquid, heat)
     slope_x, slope_y, face_x, face_y = (np.zeros(shape) for _ in range(4))
     coldest, warmest = min(inlet.min(), walls.min()), max(inlet.max(), walls.max())
-    kept, limited = flows.stored + np.maximum(-flows.entering, 0.0), True
+    most = liquid.heat(np.array([warmest + MAX_HEATING]))[0][0]
+    kept, limited = flows.stored + leaving, True
     error = np.inf
     for iteration in range(ITERATIONS):
-        temperature, capacity = _temperature_of(heat, liquid, temperature)
-        viscosity, thinning = liquid.viscosity(temperature)
+        highest = np.unravel_index(int(np.argmax(heat)), shape)
+        if not np.abs(heat).max() <= most:
+            raise _runaway(solution, highest)
+        if not properties.contains(heat):
+            properties = over_heat(liquid, heat)
+        temperature, warming, viscosity, thinning = properties(heat)
         generated, to_walls = relative_power * viscosity + fixed_power, lost * (temperature - walls)
         if limited:
             spacings = solution.grid.spacing_x, solution.grid.spacing_y
@@ -170,14 +181,11 @@ def mean_temperature(
         carry(flows.along, flows.across, face_x, face_y, balance)
         scale = float((np.abs(gained) + np.abs(generated) + np.abs(to_walls)).sum())
         before, error = error, float(np.abs(balance).sum()) / (scale or 1.0)
-        highest = np.unravel_index(int(np.argmax(temperature)), shape)
-        if not temperature[highest] <= warmest + MAX_HEATING:
-            raise _runaway(solution, highest)
         if error <= TOLERANCE or before / 2 < error <= ROUNDED:
             break
         undershoots = temperature.min() < coldest - UNDERSHOOT * (temperature[highest] - coldest)
         limited = limited and iteration < (2 * LIMITED if undershoots else LIMITED if error > SETTLED else 0)
-        change = (relative_power * thinning - lost) / capacity
+        change = relative_power * thinning - lost * warming
         source = gained + generated - to_walls - change * heat
         linear = (order, flows.along, flows.across, slope_x, slope_y, kept - change)
         _solve(linear, source, late, (heat, face_x, face_y))
@@ -193,7 +201,6 @@ def mean_temperature(
     generated_all = float(generated.sum())
     difference = generated_all - float(to_walls.sum()) - stored
     difference += sum(one.heat_in - one.heat_out for one in carried.values())
-    leaving = np.maximum(-flows.entering, 0.0)
     return MeanTemperature(
         temperature=temperature,
         viscosities=Viscosities(flow=viscosity, shear=viscosity, carried=np.ones(shape)),
@@ -211,8 +218,8 @@ def _runaway(solution: Solution, place: tuple[np.intp, ...]) -> ConvergenceError
     """The error of a film without a steady temperature, at the place of the largest one."""
     x, y = solution.grid.x[place[0]], solution.grid.y[place[1]]
     return ConvergenceError(
-        f"temperature: the liquid at x = {x:.4g}, y = {y:.4g} circulates and heats by more than {MAX_HEATING:g} K, as "
-        "it neither leaves the film nor gives its heat to a wall; take walls that take heat, or supply more lubricant",
+        f"temperature: the liquid at x = {x:.4g}, y = {y:.4g} heats by more than {MAX_HEATING:g} K, as too little of "
+        "it leaves the film; supply more lubricant, lower the speed, or take walls that take heat",
         outcome=Outcome.DIVERGED,
     )
 
@@ -222,18 +229,6 @@ def _arranged(flows: Flows) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     waiting, stack, done, order, late = (np.zeros(flows.along.size, dtype=np.int64) for _ in range(5))
     arrange(flows.along, flows.across, waiting, stack, done, order, late)
     return order, np.flatnonzero(late)
-
-
-def _temperature_of(heat: Array, liquid: Liquid, near: Array) -> tuple[Array, Array]:
-    """The temperature at which the liquid has a heat, by Newton's method from one near to it, and ρ c."""
-    temperature = near
-    for _ in range(ITERATIONS):
-        value, capacity = liquid.heat(temperature)
-        change = (heat - value) / capacity
-        temperature = temperature + change
-        if not (np.abs(change) > ACCURACY * np.abs(temperature)).any():
-            break
-    return temperature, capacity
 
 
 def _solve(

@@ -1,4 +1,4 @@
-"""The power that a film turns into heat, and the parts of its flows by sliding and by pressure."""
+"""The parts of the flows of a film by sliding and by pressure, and the power that becomes heat."""
 
 from dataclasses import dataclass
 
@@ -6,9 +6,8 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.evaluation.filling import filled_fraction
-from roughfilm.rom.cavitation.evaluation.flows import flow_across, flow_along
-from roughfilm.rom.cavitation.evaluation.friction import wall_stress
 from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.temperature.dissipation import dissipation, film_flows
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,9 +17,10 @@ class Carriers:
     Attributes
     ----------
     sliding : flow by sliding through the faces towards i + 1, m³/s (m²/s if infinitely wide).
-    pressing : the rest of the flow through these faces, m³/s.
+    pressing : the rest of the flow through them, m³/s.
     across : flow through the faces towards j + 1, m³/s.
-    power : power that the lubricant of the control volumes turns into heat, W (W/m if infinitely wide).
+    fluid_power : power that the lubricant of the control volumes turns into heat, over the viscosity η_s of its shear,
+        W/(Pa s); the flows are those of the film whatever its viscosity is.
     filling : part of the width that is filled, 1 in the film.
     speed : speed of the wall at the nodes, m/s.
     gradient_x, gradient_y : ∂p/∂x and ∂p/∂y at the nodes over the ratio of viscosities by pressure, Pa/m.
@@ -29,7 +29,7 @@ class Carriers:
     sliding: Array
     pressing: Array
     across: Array
-    power: Array
+    fluid_power: Array
     filling: Array
     speed: Array
     gradient_x: Array
@@ -37,33 +37,23 @@ class Carriers:
 
 
 def carriers(solution: Solution) -> Carriers:
-    """The flows through the faces of a film and the power that becomes heat in its control volumes.
-
-    The power of a face is that of the friction on the sliding wall and what the pressures do on the flow, u F - q Δp;
-    each of its two nodes gets half of it. The sum over the film is the power of sliding and of the supply.
-    """
+    """The flows through the faces of a film, its power, and the gradients that shape both across the film."""
     grid, net, state, problem = solution.grid, solution.network, solution.state, solution.problem
-    along, across = flow_along(solution), flow_across(solution)
+    flows = film_flows(solution)
     excess = problem.compression(state.pressure)[0]
     sliding = net.couette * (state.fill + net.upstream * excess + (1 - net.upstream) * np.roll(excess, -1, axis=0))
     if not net.periodic[0]:
-        along[-1], sliding[-1] = 0.0, 0.0
-    if not net.periodic[1]:
-        across[:, -1] = 0.0
+        sliding[-1] = 0.0
     speed = problem.speed * (grid.radius if problem.shape.polar else np.ones_like(grid.radius))
-    areas = grid.spacing_x[:, None] * grid.radius * grid.volume_y
     rise_x = np.roll(state.pressure, -1, axis=0) - state.pressure
     rise_y = np.roll(state.pressure, -1, axis=1) - state.pressure
-    density = 1 + excess
-    along_power = speed * wall_stress(solution) * areas - along * rise_x * 2 / (density + np.roll(density, -1, axis=0))
-    across_power = -across * rise_y * 2 / (density + np.roll(density, -1, axis=1))
-    power = (along_power + np.roll(along_power, 1, axis=0) + across_power + np.roll(across_power, 1, axis=1)) / 2
     ratio = problem.fluidity(state.pressure)[0]
+    own = problem.viscosity if problem.at_nodes is None else problem.at_nodes.shear
     return Carriers(
         sliding=sliding,
-        pressing=along - sliding,
-        across=across,
-        power=power,
+        pressing=flows.along - sliding,
+        across=flows.across,
+        fluid_power=dissipation(solution, flows) / own,
         filling=np.clip(filled_fraction(solution), LEAST_FILLING, 1.0),
         speed=np.broadcast_to(speed, grid.shape),
         gradient_x=ratio * _slope(rise_x, grid.spacing_x[:, None] * grid.radius, 0),

@@ -4,11 +4,12 @@ from roughfilm.contact.foundation.compiled import compiled
 
 
 @compiled
-def profile(viscosity, points, weights, integrals, thickness, speed, gradient_x, gradient_y, drift, push, heating, flow, shear, carried):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+def profile(viscosity, steepness, points, weights, integrals, thickness, speed, gradient_x, gradient_y, drift, push, heating, softening, flow, shear, carried):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """Write the velocities by sliding and by pressure over their means, the dissipation over its mean, and viscosities.
 
     With F(ζ) = ∫ dζ/η and G(ζ) = ∫ ζ dζ/η from the sliding wall, the velocities are in proportion to 1 - F/F(1) and to
-    G(1) F/F(1) - G, and the dissipation to ((η ∂u/∂z)² + (η ∂v/∂z)²)/η. Source: Dowson 1962.
+    G(1) F/F(1) - G, and the dissipation to ((η ∂u/∂z)² + (η ∂v/∂z)²)/η. ``steepness`` is dη/dT, and ``softening`` the
+    derivative of ln η_s by the temperature of each point. Source: Dowson 1962.
     """
     nx, ny, size = viscosity.shape
     for i in range(nx):
@@ -35,6 +36,7 @@ def profile(viscosity, points, weights, integrals, thickness, speed, gradient_x,
                 drift[i, j, m] = zeroth - sliding
                 push[i, j, m] = pressing
                 lever = points[m] - centre
+                softening[i, j, m] = weights[m] * steepness[i, j, m] / (zeroth * viscosity[i, j, m] ** 2)
                 stress = along * lever - by_sliding
                 heating[i, j, m] = (stress * stress + across * across * lever * lever) / viscosity[i, j, m]
                 drifting += weights[m] * drift[i, j, m]

@@ -43,7 +43,7 @@ def reaches(heat, along, beside, ahead_x, back_x, ahead_y, back_y, periodic_x, p
             limit(beside[i, j], heat[i, south], own, heat[i, north], beyond, *factors)
 
 
-@called
+@inlined
 def add(flow, sign, before, nearest, behind, reach, inflow):  # type: ignore[no-untyped-def]
     """Add the heat that enters a node through a face, less what of the heat that leaves depends on the node behind it.
 
@@ -117,10 +117,10 @@ def sweep(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, inverse
 
 
 @compiled
-def audit(heat, temperature, along, beside, leaving, stored, upward, source, conduction, area, holds_0, resistance_0, outside_0, holds_1, resistance_1, outside_1, points, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, inflow, into_0, into_1, rest):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+def audit(heat, temperature, along, beside, leaving, stored, upward, source, heating, softening, conduction, area, holds_0, resistance_0, outside_0, holds_1, resistance_1, outside_1, points, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, inflow, into_0, into_1, rest):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """Write the fluxes into both walls and the residuals of the equations of every node, W, of the given heat.
 
-    ``source`` is what enters and the dissipation. A wall at a given temperature takes the flux that balances the node.
+    What enters from outside is as in ``blocks``. A wall at a given temperature takes the flux that balances the node.
     """
     nx, ny, size = heat.shape
     for i in range(nx):
@@ -129,11 +129,13 @@ def audit(heat, temperature, along, beside, leaving, stored, upward, source, con
             below = j - 1 if j > 0 else (ny - 1 if periodic_y else -1)
             gather(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, i, j, inflow)
             own, t = heat[i, j], temperature[i, j]
-            total, high, low_end, high_end = 0.0, 0.0, 0.0, 0.0
+            total, high, low_end, high_end, softer = 0.0, 0.0, 0.0, 0.0, 0.0
+            for m in range(size):
+                softer += softening[i, j, m] * t[m]
             for m in range(size):
                 out = leaving[i, j, m] - weights[m] * stored[i, j]
                 out += outflow(along, beside, reach_x, reach_y, before, below, i, j, m)
-                lacks = inflow[m] + source[i, j, m] - out * own[m]
+                lacks = inflow[m] + source[i, j, m] + heating[i, j, m] * softer - out * own[m]
                 for n in range(size):
                     lacks += slopes[n, m] * upward[i, j, n] * own[n] - conduction[i, j] * stiffness[m, n] * t[n]
                 rest[i, j, m] = lacks
@@ -154,3 +156,31 @@ def audit(heat, temperature, along, beside, leaving, stored, upward, source, con
             into_0[i, j], into_1[i, j] = first, second
             for m in range(size):
                 rest[i, j, m] -= area[i, j] * (ends[0, m] * first + ends[1, m] * second)
+
+
+@compiled
+def summarise(temperature, heat, along, leaving, stored, weights, ends, periodic_x, mean, carried, peaks, low, high):  # type: ignore[no-untyped-def]  # fmt: skip
+    """Write means across the film, the largest temperature at the points and the temperatures of the walls.
+
+    Returns the heat that leaves and the heat that is stored, W.
+    """
+    nx, ny, size = temperature.shape
+    out, kept = 0.0, 0.0
+    for i in range(nx):
+        before = i - 1 if i > 0 else (nx - 1 if periodic_x else 0)
+        for j in range(ny):
+            amount, moved, own = 0.0, 0.0, 0.0
+            mean[i, j], low[i, j], high[i, j], peaks[i, j] = 0.0, 0.0, 0.0, temperature[i, j, 0]
+            for m in range(size):
+                t, flow = temperature[i, j, m], abs(along[i, j, m]) + abs(along[before, j, m])
+                mean[i, j] += weights[m] * t
+                low[i, j] += ends[0, m] * t
+                high[i, j] += ends[1, m] * t
+                peaks[i, j] = max(peaks[i, j], t)
+                amount += flow
+                moved += flow * t
+                out += leaving[i, j, m] * heat[i, j, m]
+                own += weights[m] * heat[i, j, m]
+            carried[i, j] = moved / amount if amount > 0.0 else mean[i, j]
+            kept -= stored[i, j] * own
+    return out, kept

@@ -17,8 +17,8 @@ from roughfilm.rom.ladder.model import Effect, Model, ladder
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 
-CELLS = {True: 128, False: 32}
-"""Number of cells along a side of the coarse grid, for an infinitely wide film (True) and for others."""
+CELLS = {True: (128, 512), False: (32, 64)}
+"""Number of cells along a side, for an infinitely wide film (True) and for others; the second if a model fails."""
 
 EFFECTS: Mapping[Effect, str] = {
     Effect.SHEAR_THINNING: "shear thinning",
@@ -97,30 +97,29 @@ def coarse_films(scene: Bearing) -> CoarseFilms | None:
 def viscosity_omitted(scene: Bearing, model: Model[Bearing], quantity: str) -> Omission | None:
     """The relative change of a quantity by heating and shear thinning that a model leaves out; None if it is unknown.
 
-    It is the difference between the best model of these effects and the one that has those of the model, on one coarse
-    grid. It is infinite if every model with more effects fails, as by a thermal runaway.
+    It is the difference between the model with most of these effects and the one that has those of the model, on one
+    coarse grid. It is infinite if the former fails, as by a thermal runaway.
     """
     films = coarse_films(scene)
     if films is None:
         return None
     own = films.standing_for(model)
-    if own.name not in films.results:
-        return None
     above = films.above(own)
-    solved = [one for one in above if one.name in films.results]
-    if above and not solved:
-        reason = f"{_listed(films.left_out(above[0], own))}: {films.failures[above[0].name]}"
+    if not above or own.name not in films.results:
+        return None
+    best = above[-1]
+    if best.name in films.failures:
+        reason = f"{_listed(films.left_out(best, own))}: {films.failures[best.name]}"
         return Omission(part=math.inf, reason=reason, source=ON_COARSE_GRID)
-    best = solved[-1] if solved else own
     change = films.change(quantity, best, own)
-    if change is None or best == own:
+    if change is None:
         return None
     names = films.left_out(best, own)
     where = " of the smooth film" if films.smooth else ""
     changes = "change" if len(names) > 1 else "changes"
     title = kind_of_scene(scene).titles[quantity]
     reason = f"{_listed(names)} {changes} the {title}{where} by about {share(abs(change))}"
-    others = _by_others(films, quantity, best, solved[:-1])
+    others = _by_others(films, quantity, best, above[:-1])
     return Omission(part=abs(change), reason=reason + others, source=ON_COARSE_GRID)
 
 
@@ -152,13 +151,20 @@ def _films(question: KeyedScene) -> CoarseFilms | None:
     if not changed:
         return None
     models = (plain[-1], *sorted(changed, key=lambda model: len((model.keeps & EFFECTS.keys()) - absent)))
+    for cells in CELLS[scene.wide]:
+        results, failures = _solved(scene, models, cells)
+        if not failures:
+            break
+    return CoarseFilms(models=models, results=results, failures=failures, smooth=smooth, absent=absent)
+
+
+def _solved(scene: Bearing, models: Sequence[Model[Bearing]], cells: int) -> tuple[dict[str, Result], dict[str, str]]:
+    """The results of models on a grid, and the messages of those that fail, by name."""
     results: dict[str, Result] = {}
     failures: dict[str, str] = {}
     for model in models:
         try:
-            results[model.name] = model.solve(scene, Request(resolution=CELLS[scene.wide]))
+            results[model.name] = model.solve(scene, Request(resolution=cells))
         except (InputError, ConvergenceError) as error:
             failures[model.name] = str(error)
-    if not results:
-        return None
-    return CoarseFilms(models=models, results=results, failures=failures, smooth=smooth, absent=absent)
+    return results, failures

@@ -7,10 +7,11 @@ from functools import partial
 import numpy as np
 
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.asperity_contact import FLASH
 from roughfilm.rom.bearing.equilibrium.expected import expected_film
 from roughfilm.rom.bearing.equilibrium.grids import LOAD_TOLERANCE
 from roughfilm.rom.bearing.film import Searched
-from roughfilm.rom.bearing.flash import FLASH, flash_temperature, flash_warnings
+from roughfilm.rom.bearing.flash import flash_temperature, flash_warnings
 from roughfilm.rom.bearing.mixed.contact_load import AsperityLoad, asperity_load
 from roughfilm.rom.bearing.mixed.film import MixedFilm, mixed_problem
 from roughfilm.rom.bearing.mixed.wall import asperities_of

@@ -89,9 +89,7 @@ class Heated:
     @property
     def outputs(self) -> Outputs:
         """The functions that evaluate the film."""
-        return Outputs(
-            quantities=self.quantities, factor_uncertainties=self.factor_uncertainties, fields=self.base.fields
-        )
+        return replace(self.base, quantities=self.quantities, factor_uncertainties=self.factor_uncertainties)
 
     def quantities(self, scene: Bearing, solution: Solution) -> dict[str, Quantity]:
         """The quantities of the isothermal model, its temperatures and heat flows."""

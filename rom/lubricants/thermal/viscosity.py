@@ -3,13 +3,14 @@
 import math
 from functools import cached_property
 from itertools import pairwise
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
-from pydantic import model_validator
+from pydantic import BeforeValidator, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, PositiveNumber
+from roughfilm.contact.foundation.units import converted
 from roughfilm.rom.lubricants.thermal.law import (
     LOG_LIMIT,
     AbsoluteLaw,
@@ -22,7 +23,19 @@ from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY
 
 TemperatureCoefficient = Annotated[float, InUnit("K^-1", any_sign=True)]
 Viscosity = Annotated[float, InUnit("Pa*s")]
-Point = tuple[Temperature, Viscosity]
+
+
+def _dynamic(viscosity: Any) -> Any:
+    """The entry of a viscosity; ValueError for a kinematic one, for which no density stands beside it."""
+    try:
+        converted(viscosity if isinstance(viscosity, str) else "", "m^2/s")
+    except ValueError:
+        return viscosity
+    raise ValueError(f"got {viscosity!r:.60}, a kinematic viscosity; write mPa*s, or take the law walther")
+
+
+Point = tuple[Temperature, Annotated[Viscosity, BeforeValidator(_dynamic)]]
+"""A temperature, K, and the viscosity at it, Pa s."""
 
 EXPONENTIAL_SPAN = 30.0
 """Distance from T_s within which the exponential law is valid, K."""
@@ -34,8 +47,8 @@ ROELANDS_TEMPERATURE = 138.0
 class ExponentialViscosity(AnchoredLaw):
     """The law η = η_s exp(-β (T - T_s)), within about 30 K of T_s. Source: Reynolds 1886.
 
-    The coefficient β of a mineral oil falls with temperature, about 0.04/K at 40 °C and 0.02/K at 80 °C, so that 30 K
-    away from T_s the law differs by some 20 % from the laws below.
+    The coefficient β of a mineral oil falls with temperature, of ISO VG 32 from 0.044/K at 40 °C to 0.027/K at 80 °C:
+    30 K away from T_s the law gives 20 to 30 % less than ASTM D341.
 
     Attributes
     ----------
@@ -70,7 +83,7 @@ class RoelandsTemperature(AnchoredLaw):
 
     Attributes
     ----------
-    index : index S, about 0.9 to 1.5 for mineral oils.
+    index : index S, about 1.2 to 1.3 for mineral oils.
 
     Examples
     --------

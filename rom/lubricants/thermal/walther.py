@@ -31,6 +31,9 @@ GRADES = {2: 2.2, 3: 3.2, 5: 4.6, 7: 6.8} | {
 }
 """Midpoint of each viscosity grade of ISO 3448, mm²/s at 40 °C; the grade spans 10 % to both sides."""
 
+MAX_STEPS = 20
+"""Largest number of steps in which a viscosity is sought; five are enough in the range of the law."""
+
 FORTY, HUNDRED = 313.15, 373.15
 
 
@@ -43,9 +46,11 @@ def _excess(viscosity: Array) -> tuple[Array, Array]:
 def _kinematic(z: Array) -> Array:
     """The kinematic viscosity ν of Z > 0.93, both in mm²/s, by Newton's method."""
     viscosity = np.maximum(z - 0.7, 0.05)
-    for _ in range(5):
+    for _ in range(MAX_STEPS):
         excess, slope = _excess(viscosity)
-        viscosity = np.maximum(viscosity - (viscosity + excess - z) / (1 + slope), 1e-3)
+        before, viscosity = viscosity, np.maximum(viscosity - (viscosity + excess - z) / (1 + slope), 1e-3)
+        if (np.abs(viscosity - before) <= 1e-8 * viscosity).all():  # the next step would be of rounding
+            break
     return viscosity
 
 

@@ -31,6 +31,7 @@ TYPICAL_CPU_S = {
         "homogenized": 0.3,
         "mixed": 0.4,
         "heat_balance": 0.9,
+        "shear_thinning": 1.3,
         "direct": 1.3,
         "film": 0.06,
         "film_slope": 0.06,

@@ -149,3 +149,18 @@ def test_solids_of_heat_are_checked(scene, tips):
     geometry = {"shape": "parallel", "length": "20 mm", "width": "10 mm", "film": "1 um"}
     with pytest.raises(InputError, match=r"asperities\.solid_heat: got one, but a stored table has no spots"):
         tips.scene(geometry, asperities={"friction": 0.1, "solid_heat": STEEL})
+
+
+def test_a_heated_film_flashes_above_its_own_temperature(scene):
+    """The flash temperature of a heat balance has the friction at the temperature of the film."""
+    oil = {"temperature": "40 degC", "density": "870 kg/m^3", "heat_capacity": "2000 J/(kg*K)"}
+    thinning = {"law": "exponential", "temperature_coefficient": "0.001 1/K"}
+    lubricant = {"viscosity": "0.01 Pa*s", **oil, "thermoviscosity": thinning}
+    warm = rf.replace(rf.replace(scene, "lubricant", lubricant), "motion.speed", "0.5 m/s")
+    hot = rf.replace(warm, "asperities.friction", {"table": [["0 degC", 0.02], ["500 degC", 0.0]]})
+    result = rf.solve(hot, model="heat_balance", resolution=8)
+    coefficient = 0.02 * (1 - result["effective_temperature"].value / 500)
+    expected = flash_temperature(warm, result["contact_pressure_max"].value, coefficient).mean
+    assert result["flash_temperature"].value == pytest.approx(expected, rel=1e-3)
+    assert result["flash_temperature"].uncertainty is None
+    assert not any(line.startswith("flash_temperature, ") for line in result.warnings)

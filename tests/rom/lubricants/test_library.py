@@ -1,7 +1,10 @@
 """Liquids by name: published numbers, their sources, and what a scene takes from them."""
 
+import re
+
 import numpy as np
 import pytest
+from places import ROOT
 
 import roughfilm as rf
 from roughfilm.contact.foundation.errors import InputError
@@ -134,3 +137,15 @@ def test_a_supply_outside_of_the_range_of_the_viscosity_has_a_warning():
     cold = rf.solve(scene(oil="SAE 30", temperature="5 degC"), model="reynolds_incompressible")
     assert "temperature: 5 °C; the law vogel of the viscosity is valid from 10 °C to 140 °C" in cold.warnings
     assert oil("SAE 30", 40).temperature_warnings(313.15, 313.15) == []
+
+
+def test_the_table_of_the_manual_has_the_numbers_of_the_library():
+    page = (ROOT / "docs" / "theory" / "lubricants.md").read_text(encoding="utf-8")
+    rows = [line.strip("| ").split(" | ") for line in page.splitlines() if re.match(r"\| `.+` (\| [\d.]+ ){5}", line)]
+    assert [row[0].strip("`") for row in rows] == [*sources()]
+    for name, *numbers in rows:
+        one = oil(name.strip("`"), 40)
+        hot = one.viscosity_at(np.array([373.15]))[0][0]
+        heat = one.heat_capacity.heat(np.array([313.15]), 300.0)[1][0]
+        values = (1e3 * one.viscosity, 1e3 * hot, one.density, heat, one.conductivity)
+        assert [float(number) for number in numbers] == pytest.approx(values, rel=6e-3)

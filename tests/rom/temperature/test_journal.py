@@ -7,6 +7,7 @@ from warm_films import SUPPLY, imbalance, journal, liquid
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.cavitation.evaluation.friction import friction
 from roughfilm.rom.temperature.across import temperature_across
+from roughfilm.rom.temperature.mean import mean_temperature
 from roughfilm.rom.temperature.walls import ConductingWall, InsulatedWall, SlidingHalfSpace, TurningWall
 
 OUTSIDE = ConductingWall(resistance=2e-3, surroundings=SUPPLY)
@@ -31,10 +32,22 @@ def test_heat_is_conserved(field):
     assert field.balance.fixed_wall > 0.01 * field.balance.dissipation
 
 
-def test_the_power_is_that_of_friction_and_supply(film, field):
+def test_the_power_is_that_of_friction_and_supply(film):
     """The supply adds its pressure times its flow, a small part of the power."""
-    assert field.balance.dissipation == pytest.approx(friction(film) * film.problem.speed, rel=0.05)
-    assert field.balance.dissipation > friction(film) * film.problem.speed
+    warm = temperature_across(film, liquid(viscosity=0.02), sliding_wall=InsulatedWall(), fixed_wall=OUTSIDE)
+    assert warm.balance.dissipation == pytest.approx(friction(film) * film.problem.speed, rel=0.05)
+    assert warm.balance.dissipation > friction(film) * film.problem.speed
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.03])
+def test_fast_conduction_gives_the_temperature_of_the_mean_energy_equation(film, slope):
+    """With insulated walls; the two discretisations differ by limited slopes at the edges of the supply."""
+    oil = liquid(viscosity=0.02, slope=slope, conductivity=100.0)
+    across = temperature_across(film, oil, sliding_wall=InsulatedWall(), fixed_wall=InsulatedWall())
+    mean = mean_temperature(film, oil)
+    rise = mean.temperature - SUPPLY
+    assert np.abs(across.mean - mean.temperature).mean() < 0.01 * rise.max()
+    assert across.balance.dissipation == pytest.approx(mean.dissipation.sum(), rel=5e-3)
 
 
 def test_without_power_a_uniform_temperature_stays():

@@ -239,7 +239,7 @@ def test_circulating_liquid_gives_its_heat_to_the_walls() -> None:
 def test_liquid_that_only_circulates_has_no_steady_temperature(wide: bool) -> None:
     closed = shape_of(eccentric, **{**RING, "joined": (True, not wide), "wide": wide})
     solution = solve(problem_of(closed, Ends(anchor=(0.0, 0.0, 1e5))), (16, 12))
-    with pytest.raises(ConvergenceError, match=r"temperature: .*walls that take heat"):
+    with pytest.raises(ConvergenceError, match="heats by more than 500 K"):
         mean_temperature(solution, liquid())
 
 

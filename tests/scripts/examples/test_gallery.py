@@ -401,6 +401,19 @@ def test_barus_law_has_the_pressure_of_the_closed_form() -> None:
     assert "no steady film" in values["refused"]
 
 
+def test_a_multigrade_oil_loses_more_friction_than_film() -> None:
+    values = values_of("bearings/shear_thinning")
+    film, friction = ({name: np.array(one) for name, one in values[key].items()} for key in ("films", "friction"))
+    thinner = 1 - film["of each place"] / film["at rest"]
+    assert thinner[[0, -1]] == pytest.approx([0.097, 0.169], abs=0.003)
+    assert 1 - friction["of each place"][-1] / friction["at rest"][-1] == pytest.approx(0.295, abs=0.003)
+    assert 1 - film["of the mean shear rate"][0] / film["at rest"][0] < 0.005
+    # A film of one viscosity depends on η u alone: the mean viscosities give points of the curve at rest.
+    product = values["speeds"] * values["mean"] / 0.015
+    on_curve = np.exp(np.interp(np.log(product[1:4]), np.log(values["speeds"]), np.log(film["at rest"])))
+    assert film["of the mean shear rate"][1:4] == pytest.approx(on_curve, rel=0.01)
+
+
 # Mixed lubrication
 
 

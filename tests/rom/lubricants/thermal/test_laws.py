@@ -114,6 +114,30 @@ def test_the_viscosity_index_of_the_examples_of_astm_d2270(warm, hot, low, high,
     assert kinematic_viscosity_100(warm, index) == pytest.approx(hot, rel=2e-3)
 
 
+def test_the_references_of_the_index_are_those_of_table_1_of_astm_d2270():
+    rows = [
+        (2.0, 7.994, 6.394),
+        (3.0, 15.49, 12.15),
+        (4.2, 27.75, 21.21),
+        (4.7, 35.13, 25.63),
+        (6.0, 57.97, 38.19),
+        (6.7, 71.29, 45.33),
+        (7.5, 88.85, 53.98),
+        (8.5, 111.5, 65.32),
+        (10.0, 147.7, 82.87),
+        (13.0, 231.9, 121.5),
+        (17.0, 369.4, 180.2),
+        (20.0, 493.2, 229.5),
+        (25.0, 736.5, 320.9),
+        (30.0, 1023.0, 421.7),
+        (50.0, 2618.0, 919.6),
+        (60.0, 3676.0, 1222.0),
+        (70.0, 4905.0, 1558.0),
+    ]
+    for hot, low, high in rows:
+        assert reference_viscosities(hot) == pytest.approx((low, high), rel=1e-3)
+
+
 @pytest.mark.parametrize("index", [0, 50, 95, 100, 140, 250])
 @pytest.mark.parametrize("warm", [10.0, 32.0, 100.0, 680.0, 3200.0])
 def test_the_viscosity_at_100_degrees_has_the_index(warm, index):
@@ -181,6 +205,7 @@ def test_valid_ranges():
         ("iso_vg", {"grade": 30}, "grade: got 30; it must be one of 2, 3, 5"),
         ("iso_vg", {"grade": 5}, "grade: got 5 with the viscosity index 95, which is not defined below 2"),
         ("iso_vg", {"grade": 32, "viscosity_index": 900}, "viscosity_index: got 900; it must be 0 to 500"),
+        ("tabulated", {"table": [*ROWS[:1], ["40 degC", "28 cSt"]]}, "got '28 cSt', a kinematic viscosity; write mPa"),
         ("tabulated", {"table": ROWS[:1]}, "at least 2 items"),
         ("tabulated", {"table": [ROWS[1], ROWS[0]]}, "table: got 20 °C, 0.07 as point 2"),
         ("tabulated", {"table": "nowhere.csv"}, r"nowhere\.csv.*no such file"),
