@@ -10,7 +10,16 @@ from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.basis import Basis, basis
-from roughfilm.rom.temperature.equations import Audit, Equations, Plane, audited, equations, linearised, plane
+from roughfilm.rom.temperature.equations import (
+    Audit,
+    Equations,
+    Plane,
+    audited,
+    equations,
+    linearised,
+    plane,
+    viscosities_across,
+)
 from roughfilm.rom.temperature.power import Carriers, carriers
 from roughfilm.rom.temperature.sweeps import summarise, sweep
 from roughfilm.rom.temperature.walls import FixedWall, SlidingWall, TurningWall, WallCondition, condition
@@ -18,10 +27,13 @@ from roughfilm.rom.temperature.walls import FixedWall, SlidingWall, TurningWall,
 MODES = 8
 """Number of Legendre modes across the film by default."""
 
-TOLERANCE = 1e-5
-"""Mean change of the temperature over its range, after viscosities are renewed, at which the iteration stops."""
+TOLERANCE = 1e-4
+"""Mean change of the temperature over its range, in the first sweep after viscosities are renewed, at which it stops.
 
-RESIDUAL_TOLERANCE = 1e-9
+The sweeps after it reduce the error further, to about a tenth.
+"""
+
+RESIDUAL_TOLERANCE = 5e-9
 """Largest residual of the equations with the last viscosities."""
 
 RENEWALS = 60
@@ -30,7 +42,7 @@ RENEWALS = 60
 SWEEPS = 6
 """Largest number of sweeps with the same equations before viscosities are renewed."""
 
-FALL = 0.05
+FALL = 0.2
 """Change of a sweep over that of the first one with the same equations, at which the equations are renewed."""
 
 PLACES = 65
@@ -48,7 +60,7 @@ ROUND_OFF = 256 * float(np.finfo(float).eps)
 LAST_SWEEPS = 400
 """Largest number of sweeps with the last equations."""
 
-LIMITED_RENEWALS = 6
+LIMITED_RENEWALS = 12
 """Number of renewals, from the first start on, after which the limited factors of the faces stay the same.
 
 They would keep changing by little where the temperature is uneven, so that the iteration would not converge.
@@ -122,13 +134,13 @@ class TemperatureAcross:
     points, weights : positions ζ = z/h of the N Gauss points from the sliding wall, and their weights, which sum to 1.
     mean : mean of T across the film, K, shape (nx, ny).
     carried : mean of T weighted by the size of the velocity along the sliding, K, shape (nx, ny).
-    viscosities : viscosities across the film at the nodes.
+    viscosities : viscosities at T at the nodes, at the cavitation pressure.
     sliding_wall, fixed_wall : temperatures of the walls and heat fluxes into them.
     largest : largest temperature of the film, K.
     place : position (x, y, ζ) of the largest temperature.
     balance : heat flows of the film.
     residual : sum of the sizes of all residuals over the power and the sizes of the heat flows in.
-    change : mean change of T over its range after viscosities were renewed last.
+    change : mean change of T over its range in the first sweep after viscosities were renewed last.
     sweeps : number of sweeps over the film.
     shaft : temperature of a turning wall, K; None for other walls.
     iterate : what a further iteration starts from.
@@ -183,8 +195,10 @@ def temperature_across(
     added_power : further power that heats the lubricant of each node, such as that of asperities which rub, W, shape
         (nx, ny); it is distributed across the film as the dissipation.
     modes : number N of Legendre modes across, from 2.
-    start : a field on the same grid with the same number of modes from which the iteration starts.
-    tolerance : mean change of the temperature over its range, after viscosities are renewed, at which it stops.
+    start : a field with the same numbers of nodes and modes from which the iteration starts; its ``iterate`` is of use
+        on the same grid alone, and is ignored for other numbers of nodes.
+    tolerance : mean change of the temperature over its range, in the first sweep after viscosities are renewed, at
+        which it stops.
     renewals : number of renewals of the viscosities after which the iteration stops without meeting the tolerance, for
         a film that changes further; residual and change are those reached.
 
@@ -207,14 +221,13 @@ def temperature_across(
     given = liquid.temperature if entering is None else entering
     parts, moved = basis(modes), carriers(solution)
     if added_power is not None:
-        moved = replace(moved, power=moved.power + added_power)
+        moved = replace(moved, added=added_power)
     temperature = (
         np.broadcast_to(np.asarray(given, dtype=float)[..., None], shape) if start is None else start.temperature
     )
-    warm = float(np.mean(given)) if start is None or start.shaft is None else start.shaft
-    walls = tuple(
-        condition(wall, solution, moved.filling, liquid.temperature, warm) for wall in (sliding_wall, fixed_wall)
-    )
+    shaft = float(np.mean(given)) if start is None or start.shaft is None else start.shaft
+    both = sliding_wall, fixed_wall
+    walls = [condition(wall, solution, moved.filling, liquid.temperature, shaft) for wall in both]
     film = _Film(
         solution=solution,
         liquid=liquid,
@@ -250,7 +263,7 @@ def _solved(
     heat = np.array(np.broadcast_to(film.liquid.heat(temperature)[0], temperature.shape))
     response = np.zeros(temperature.shape) if film.turning else None
     done, reach, slope = 0, None, 0.0
-    if before is not None:
+    if before is not None and before.reach[0].shape == temperature.shape:
         done, reach = before.renewals, before.reach if before.renewals >= LIMITED_RENEWALS else None
         if film.turning and before.response is not None:
             response, slope = before.response.copy(), before.slope
@@ -384,7 +397,7 @@ def _result(
         weights=parts.weights,
         mean=mean,
         carried=carried,
-        viscosities=system.viscosities,
+        viscosities=viscosities_across(parts, film.liquid.viscosity(temperature)[0]),
         sliding_wall=WallHeat(temperature=low, flux=film.moved.filling * checked.into_sliding),
         fixed_wall=WallHeat(temperature=high, flux=film.moved.filling * checked.into_fixed),
         largest=largest,

@@ -45,20 +45,39 @@ def exchange(along, beside, supply, drift, push, fixed, periodic_x, periodic_y, 
 
 
 @compiled
-def upward_flows(along, beside, entering, leaving, stored, weights, integrals, periodic_x, periodic_y, upward):  # type: ignore[no-untyped-def]  # fmt: skip
-    """Write the flow through the surface of every point towards the fixed wall, times the weight of the point, m³/s."""
+def upward_flows(along, beside, entering, leaving, stored, weights, rising, periodic_x, periodic_y, upward):  # type: ignore[no-untyped-def]  # fmt: skip
+    """Write the flow through the surface of every point towards the fixed wall, times the weight of the point, m³/s.
+
+    ``rising`` are the integrals of the basis up to the points, times the weights of these over those of the basis.
+    """
     nx, ny, size = along.shape
     for i in range(nx):
         before = i - 1 if i > 0 else (nx - 1 if periodic_x else -1)
         for j in range(ny):
             below = j - 1 if j > 0 else (ny - 1 if periodic_y else -1)
-            for m in range(size):
-                upward[i, j, m] = 0.0
+            up = upward[i, j]
+            up[:] = 0.0
             for n in range(size):
                 out = divergence(along, beside, before, below, i, j, n)
                 out += leaving[i, j, n] - entering[i, j, n] - weights[n] * stored[i, j]
+                part = rising[n]
                 for m in range(size):
-                    upward[i, j, m] -= weights[m] * integrals[m, n] / weights[n] * out
+                    up[m] -= part[m] * out
+
+
+@compiled
+def sources(entering, heat_in, power, added, temperature, supply, softening, heating, source):  # type: ignore[no-untyped-def]
+    """Multiply the dissipation by the power of each node, and write what enters, all but its change by T - T₀."""
+    nx, ny, size = heating.shape
+    for i in range(nx):
+        for j in range(ny):
+            known = 1.0
+            for m in range(size):
+                known -= softening[i, j, m] * (temperature[i, j, m] - supply)
+            for m in range(size):
+                more = heating[i, j, m] * added[i, j]
+                heating[i, j, m] *= power[i, j]
+                source[i, j, m] = entering[i, j, m] * heat_in[i, j] + more + heating[i, j, m] * known
 
 
 @inlined

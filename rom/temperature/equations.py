@@ -9,7 +9,7 @@ from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.basis import Basis
-from roughfilm.rom.temperature.blocks import LANES, blocks, exchange, upward_flows
+from roughfilm.rom.temperature.blocks import LANES, blocks, exchange, sources, upward_flows
 from roughfilm.rom.temperature.power import Carriers
 from roughfilm.rom.temperature.profiles import divide, profile
 from roughfilm.rom.temperature.sweeps import audit, reaches
@@ -105,7 +105,6 @@ class Equations:
 
     Attributes
     ----------
-    viscosities : those across the film at the nodes.
     along, beside : flows of the points through the faces towards i + 1 and j + 1.
     entering, leaving : flows of the points from and to the outside.
     stored : what leaves the nodes without an unknown flow, at the temperature of each point, shape (nx, ny).
@@ -117,7 +116,6 @@ class Equations:
     solved : the arrays of :func:`roughfilm.rom.temperature.blocks.blocks` from ``inverse`` on.
     """
 
-    viscosities: Viscosities
     along: Array
     beside: Array
     entering: Array
@@ -149,7 +147,7 @@ def equations(
     arrays of the equations ``before``, except for these factors, are written again, which saves time.
     """
     shape, net, size = near.temperature.shape, solution.network, parts.points.size
-    flow, shear, carried, stored = (np.empty(shape[:2]) for _ in range(4))
+    shear, stored = np.empty(shape[:2]), np.empty(shape[:2])
     viscosity, steepness = (np.ascontiguousarray(values) for values in liquid.viscosity(near.temperature))
     drift, push = np.empty(shape), np.empty(shape)
     if before is None:
@@ -166,16 +164,16 @@ def equations(
     moving = moved.speed, moved.gradient_x, moved.gradient_y
     across = parts.points, parts.weights, parts.integrals
     profiles = drift, push, heating, softening
-    profile(viscosity, steepness, *across, thickness, *moving, *profiles, flow, shear, carried)
+    profile(viscosity, steepness, *across, thickness, *moving, *profiles, shear)
     divide(moved.sliding, moved.pressing, moved.across, drift, push, *nodes.periodic, along, beside)
     exchange(along, beside, net.supplied, drift, push, net.fixed, *nodes.periodic, entering, leaving, stored)
-    upward_flows(along, beside, entering, leaving, stored, parts.weights, parts.integrals, *nodes.periodic, upward)
+    rising = np.ascontiguousarray((parts.weights[:, None] * parts.integrals / parts.weights).T)
+    upward_flows(along, beside, entering, leaving, stored, parts.weights, rising, *nodes.periodic, upward)
     if reach is None:
         reach = np.empty(shape), np.empty(shape)
         reaches(heat, along, beside, *nodes.ratios, *nodes.periodic, OVERSHOOT * float(np.ptp(heat)), *reach)
-    heating *= (moved.fluid_power * shear)[..., None]
-    known = 1 - (softening * (near.temperature - near.supply)).sum(axis=2)
-    source = entering * nodes.entering[..., None] + heating * known[..., None]
+    source, power = np.empty(shape), moved.fluid_power * shear
+    sources(entering, nodes.entering, power, moved.added, near.temperature, near.supply, softening, heating, source)
     sliding, fixed = walls
     scratch, right = np.ones((size + 2, size + 2, LANES)), np.ones((size + 2, LANES))
     blocks(
@@ -186,7 +184,6 @@ def equations(
         *(scratch, scratch.reshape(size + 2, -1), right, np.ones((7, size, LANES)), *solved),
     )
     return Equations(
-        viscosities=Viscosities(flow=flow, shear=shear, carried=carried),
         along=along,
         beside=beside,
         entering=entering,
@@ -199,6 +196,14 @@ def equations(
         softening=softening,
         solved=solved,
     )
+
+
+def viscosities_across(parts: Basis, viscosity: Array) -> Viscosities:
+    """The viscosities of a film from those at its points, Pa s, by the exact integrals of polynomials."""
+    fluidity = 1 / viscosity
+    zeroth, first = fluidity @ parts.weights, fluidity @ (parts.weights * parts.points)
+    second = fluidity @ (parts.weights * parts.points**2) - first**2 / zeroth
+    return Viscosities(flow=1 / (12 * second), shear=1 / zeroth, carried=2 * first / zeroth)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -21,6 +21,7 @@ class Carriers:
     across : flow through the faces towards j + 1, m³/s.
     fluid_power : power that the lubricant of the control volumes turns into heat, over the viscosity η_s of its shear,
         W/(Pa s); the flows are those of the film whatever its viscosity is.
+    added : further power that heats the lubricant, W, with the same profile across the film.
     filling : part of the width that is filled, 1 in the film.
     speed : speed of the wall at the nodes, m/s.
     gradient_x, gradient_y : ∂p/∂x and ∂p/∂y at the nodes over the ratio of viscosities by pressure, Pa/m.
@@ -30,6 +31,7 @@ class Carriers:
     pressing: Array
     across: Array
     fluid_power: Array
+    added: Array
     filling: Array
     speed: Array
     gradient_x: Array
@@ -54,6 +56,7 @@ def carriers(solution: Solution) -> Carriers:
         pressing=flows.along - sliding,
         across=flows.across,
         fluid_power=dissipation(solution, flows) / own,
+        added=np.zeros(grid.shape),
         filling=np.clip(filled_fraction(solution), LEAST_FILLING, 1.0),
         speed=np.broadcast_to(speed, grid.shape),
         gradient_x=ratio * _slope(rise_x, grid.spacing_x[:, None] * grid.radius, 0),

@@ -4,8 +4,8 @@ from roughfilm.contact.foundation.compiled import compiled
 
 
 @compiled
-def profile(viscosity, steepness, points, weights, integrals, thickness, speed, gradient_x, gradient_y, drift, push, heating, softening, flow, shear, carried):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
-    """Write the velocities by sliding and by pressure over their means, the dissipation over its mean, and viscosities.
+def profile(viscosity, steepness, points, weights, integrals, thickness, speed, gradient_x, gradient_y, drift, push, heating, softening, shear):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+    """Write the velocities by sliding and by pressure over their means, the dissipation over its mean, and η_s.
 
     With F(ζ) = ∫ dζ/η and G(ζ) = ∫ ζ dζ/η from the sliding wall, the velocities are in proportion to 1 - F/F(1) and to
     G(1) F/F(1) - G, and the dissipation to ((η ∂u/∂z)² + (η ∂v/∂z)²)/η. ``steepness`` is dη/dT, and ``softening`` the
@@ -19,10 +19,8 @@ def profile(viscosity, steepness, points, weights, integrals, thickness, speed, 
                 each = weights[m] / viscosity[i, j, m]
                 zeroth += each
                 first += points[m] * each
-            centre, second = first / zeroth, 0.0
-            for m in range(size):
-                second += weights[m] / viscosity[i, j, m] * (points[m] - centre) ** 2
-            flow[i, j], shear[i, j], carried[i, j] = 1.0 / (12.0 * second), 1.0 / zeroth, 2.0 * centre
+            centre = first / zeroth
+            shear[i, j] = 1.0 / zeroth
             h = thickness[i, j]
             by_sliding = speed[i, j] / (h * zeroth)
             along, across = h * gradient_x[i, j], h * gradient_y[i, j]

@@ -22,26 +22,37 @@ LENGTH = 0.4 * SPEED * CAPACITY * GAP**2 / CONDUCTIVITY / 10
 
 
 @cache
-def developing(at, points=48):
-    """Mean of T - T₀ over ζ, of (1 - ζ) ∂T/∂s = ∂²T/∂ζ² + 1 from T₀ with walls at T₀, by eigenfunctions.
-
-    s is x k/(ρc u h²). Chebyshev collocation with many points.
-    """
-    angle = np.pi * np.arange(points + 1) / points
-    x = np.cos(angle)
+def eigenfunctions(points=48):
+    """ζ, λ and φ of φ'' = -λ (1 - ζ) φ, 0 at both walls, by Chebyshev collocation with many points."""
+    x = np.cos(np.pi * np.arange(points + 1) / points)
     sizes = np.concatenate([[2.0], np.ones(points - 1), [2.0]]) * (-1.0) ** np.arange(points + 1)
-    difference = x[:, None] - x + np.eye(points + 1)
-    first = np.outer(sizes, 1 / sizes) / difference
+    first = np.outer(sizes, 1 / sizes) / (x[:, None] - x + np.eye(points + 1))
     first -= np.diag(first.sum(axis=1))
-    second = 4 * (first @ first)[1:-1, 1:-1]
     zeta = (x[1:-1] + 1) / 2
-    values, vectors = eig(second, np.diag(1 - zeta))
-    steady = zeta * (1 - zeta) / 2
-    parts = np.linalg.solve(vectors, -steady)
-    inside = steady + (vectors @ (parts * np.exp(values * at))).real
-    full = np.polynomial.Chebyshev.fit(x, np.concatenate([[0.0], inside, [0.0]]), points, domain=[-1, 1])
-    whole = full.integ()
+    values, vectors = eig(4 * (first @ first)[1:-1, 1:-1], np.diag(1 - zeta))
+    return zeta, -values.real, vectors.real
+
+
+def mean(zeta, inside):
+    """The integral over ζ in (0, 1) of values that are 0 at both ends."""
+    whole = np.polynomial.Chebyshev.fit(
+        2 * np.concatenate([[1.0], zeta, [0.0]]) - 1, np.concatenate([[0.0], inside, [0.0]]), zeta.size + 1
+    ).integ()
     return float(whole(1) - whole(-1)) / 2
+
+
+def developing(at):
+    """Mean of T - T₀ of (1 - ζ) ∂T/∂s = ∂²T/∂ζ² + 1 from T₀ with walls at T₀; s is x k/(ρc u h²)."""
+    zeta, rates, vectors = eigenfunctions()
+    steady = zeta * (1 - zeta) / 2
+    return mean(zeta, steady - vectors @ (np.linalg.solve(vectors, steady) * np.exp(-rates * at)))
+
+
+def following(at):
+    """Mean of T - T₀ of (1 - ζ) ∂T/∂s = ∂²T/∂ζ² from T₀ with walls at T₀ + s²."""
+    zeta, rates, vectors = eigenfunctions()
+    parts = np.linalg.solve(vectors, np.ones_like(zeta))
+    return at**2 - 2 * mean(zeta, vectors @ (parts * (at / rates - (1 - np.exp(-rates * at)) / rates**2)))
 
 
 def at_the_end(cells, modes):
@@ -55,9 +66,18 @@ S = LENGTH * CONDUCTIVITY / (CAPACITY * SPEED * GAP**2)
 
 
 def test_second_order_in_cells():
-    errors = [abs(at_the_end(cells, 12) - developing(S)) / developing(S) for cells in (20, 40, 80)]
-    assert errors[-1] < 1e-4
-    assert np.log2(errors[0] / errors[2]) / 2 == pytest.approx(2, abs=0.3)
+    errors = []
+    for cells in (16, 32, 64):
+        film = plates(cells, length=LENGTH)
+        place = film.grid.x[:, None] / LENGTH * S
+        wall = WallAtTemperature(temperature=SUPPLY + 1e4 * place**2)
+        cool = liquid(viscosity=1e-9)
+        field = temperature_across(film, cool, sliding_wall=wall, fixed_wall=wall, modes=12)
+        places = range(cells // 8, cells + 1, cells // 8)
+        exact = np.array([1e4 * following(place[i, 0]) for i in places])
+        errors.append(float(np.abs(field.mean[places, 0] - SUPPLY - exact).max() / exact.max()))
+    assert errors[-1] < 1e-3
+    assert np.log2(errors[0] / errors[2]) / 2 == pytest.approx(2, abs=0.2)
 
 
 def test_spectral_in_modes():
