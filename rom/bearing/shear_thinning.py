@@ -29,6 +29,7 @@ class ThinnedFilm:
     temperature: Array
     viscosities: Viscosities
     stress: Array
+    settled: bool = True
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from dataclasses import replace
 from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.applies import has_temperature
+from roughfilm.rom.bearing.thermal.applies import adiabatic_applies
 from roughfilm.rom.ladder.model import Effect
 
 FILMS = 3.0
@@ -27,7 +27,7 @@ _MODEL = bearing_model(
         }
     ),
     sources=(*SOURCES, "10.1016/S0020-7403(62)80038-1"),
-    applies=has_temperature,
+    applies=adiabatic_applies,
     in_plane=4e-6,
 )
 

@@ -22,6 +22,8 @@ ADDED = (
     "film_load",
     "heat_generated",
     "heat_to_lubricant",
+    "heat_to_fixed_wall",
+    "heat_to_sliding_wall",
     "heat_to_surroundings",
 )
 """Quantities of the pieces that add up to those of the whole bearing."""

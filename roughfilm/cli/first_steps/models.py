@@ -31,6 +31,8 @@ TYPICAL_CPU_S = {
         "homogenized": 0.3,
         "mixed": 0.4,
         "heat_balance": 0.9,
+        "adiabatic": 0.4,
+        "across": 1.4,
         "shear_thinning": 1.3,
         "direct": 1.3,
         "film": 0.06,

@@ -36,6 +36,8 @@ STYLES = {
     "direct": Style(colour="#252525", line="-", marker="P"),
     "mixed": Style(colour="#762a83", line="-", marker="X"),
     "heat_balance": Style(colour="#a6611a", line="--", marker="p"),
+    "adiabatic": Style(colour="#e7298a", line="-", marker="d"),
+    "across": Style(colour="#01665e", line="-", marker="*"),
     "film": Style(colour="#d6604d", line=(0, (5, 1)), marker="<"),
     "film_slope": Style(colour="#9970ab", line=(0, (3, 1, 1, 1)), marker=">"),
     "stokes": Style(colour="#35978f", line=":", marker="h"),
@@ -44,11 +46,14 @@ STYLES = {
 
 
 def along(scene: Bearing, results: Mapping[str, Result], reference: str) -> str:
-    """Film thickness, pressure and density by every model, on the line of the greatest pressure.
+    """Film thickness, pressure, density and temperature by every model, on the line of the greatest pressure.
 
     Under a load each model has a film of its own.
     """
-    figure, (film, pressure, density) = new_figure((9, 6.8), 3, 1, sharex=True, height_ratios=(1, 2.2, 1.5))
+    warm = any("temperature" in result.fields for result in results.values())
+    ratios = (1, 2.2, 1.5, 1.5) if warm else (1, 2.2, 1.5)
+    figure, panels = new_figure((9, 8.6 if warm else 6.8), len(ratios), 1, sharex=True, height_ratios=ratios)
+    film, pressure, density, *more = panels
     axis, scales = along_of(scene), scales_of([results[reference]])
     of_film, of_pressure = scales("film_min", "m"), scales("pressure_max", "Pa")
     for number, (name, result) in enumerate(results.items()):
@@ -68,11 +73,16 @@ def along(scene: Bearing, results: Mapping[str, Result], reference: str) -> str:
         look = {"linestyle": style.line, "color": style.colour, "linewidth": 1.0 if thin else 1.8}
         pressure.plot(x, p / of_pressure.factor, label=name, **look)
         density.plot(x, theta, **look)
+        for temperature in more if "temperature" in result.fields else ():
+            temperature.plot(x, result.fields["temperature"].values[:, row], **look)
     lowest = scene.lubricant.cavitation_pressure / of_pressure.factor
     pressure.axhline(lowest, color="black", linewidth=0.8, linestyle=(0, (1, 2)), label="cavitation pressure")
     film.set(ylim=(0, 1.08 * film.get_ylim()[1]), ylabel=of_film.label("film thickness"))
     pressure.set_ylabel(of_pressure.label("pressure\nabove ambient"))
-    density.set(ylabel="relative density θ\n(filled fraction)", xlabel=axis.label)
+    density.set_ylabel("relative density θ\n(filled fraction)")
+    for temperature in more:
+        temperature.set_ylabel("mean temperature\nacross the film, °C")
+    panels[-1].set_xlabel(axis.label)
     if np.ptp(density.get_ylim()) < EVEN_DENSITY:  # a film that is whole everywhere is to look so
         density.set_ylim(1 - EVEN_DENSITY, 1 + EVEN_DENSITY / 4)
     if isinstance(scene.geometry, Tilting):
@@ -83,7 +93,7 @@ def along(scene: Bearing, results: Mapping[str, Result], reference: str) -> str:
             )
     shown = results[reference].fields
     across = float(shown["y"].values[0, int(np.argmax(shown["pressure"].values.max(axis=0)))])
-    for axes in (film, pressure, density):
+    for axes in panels:
         axis.mark(axes, named=axes is pressure, at=across)
     figure.legend(loc="outside upper center", ncols=4, fontsize=8)
     figure.align_ylabels()
@@ -91,7 +101,7 @@ def along(scene: Bearing, results: Mapping[str, Result], reference: str) -> str:
 
 
 def over(scene: Bearing, results: Mapping[str, Result], reference: str) -> Plot:
-    """Pressure and density over the film by the reference model, and the differences of the others that keep its width.
+    """Pressure, density and temperature over the film by the reference model, and how others with a width differ.
 
     Differences in one quantity have the same colours.
     """
@@ -104,18 +114,20 @@ def over(scene: Bearing, results: Mapping[str, Result], reference: str) -> Plot:
         "pressure": ("pressure", scales("pressure_max", "Pa"), "pressure_max", "magma"),
         "density_ratio": ("relative density θ", Scale(factor=1.0, unit=""), "theta_min", "cividis"),
     }
+    if "temperature" in result.fields:
+        fields["temperature"] = ("temperature", Scale(factor=1.0, unit="°C"), "temperature_max", "inferno")
     found = {}
     for name, (title, scale, decided_by, _) in fields.items():
-        maps = {model: _on(one, name, place) for model, one in planes.items()}
+        maps = {model: _on(one, name, place) for model, one in planes.items() if name in one.fields}
         found[name] = differences(maps, shown, title, scale, result.quantities[decided_by].uncertainty)
     others = [model for model in planes if any(model in one.drawn for one in found.values())]
-    columns = max(2, min(len(others), MAX_COLUMNS))
     unequal = {name: one for name, one in found.items() if one.drawn}
-    rows = 1 if len(others) == 1 else len(unequal) * -(-len(others) // columns)
+    columns = max(len(fields), min(len(others), MAX_COLUMNS))
+    rows = 1 if len(others) == 1 else sum(_lines(one, columns) for one in unequal.values())
     figure = Figure(figsize=(10, 3.4 + 2.1 * rows), layout=ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.08))
     spaces = figure.add_gridspec(2 if rows else 1, 1, height_ratios=(3.4, 2.1 * rows)[: 2 if rows else 1])
     x, y = axis(place[0]), place[1] * 1e3
-    upper: Any = spaces[0].subgridspec(1, 2).subplots()
+    upper: Any = spaces[0].subgridspec(1, len(fields)).subplots()
     for axes, (name, (title, scale, _, colours)) in zip(upper, fields.items(), strict=True):
         values = result.fields[name].values / scale.factor
         # a film that is whole everywhere is to look so
@@ -127,28 +139,35 @@ def over(scene: Bearing, results: Mapping[str, Result], reference: str) -> Plot:
         figure.colorbar(image, ax=axes, label=scale.label(title))
     if rows:
         panels = spaces[1].subgridspec(rows, columns).subplots(squeeze=False, sharex=True, sharey=True)
-        _difference_maps(panels, unequal, fields, others, (x, y), axis)
+        _difference_maps(panels, unequal, fields, (x, y), axis, beside=len(others) == 1)
     return Plot(svg=svg(figure), words=tuple(words for one in found.values() for words in one.words))
+
+
+def _lines(drawn: Differences, columns: int) -> int:
+    """The number of rows that the differences in one quantity take."""
+    return -(-len(drawn.drawn) // columns)
 
 
 def _difference_maps(
     panels: Any,
     found: Mapping[str, Differences],
     fields: Mapping[str, Any],
-    others: Sequence[str],
     place: tuple[Array, Array],
     along: Along,
+    *,
+    beside: bool,
 ) -> None:
-    """Draw the differences of the other models: pressure above density, or beside it if there is one other model."""
+    """Draw the differences of the other models: one quantity below the other, or beside it if there is one model."""
     for axes in panels.flat:
         axes.set_axis_off()
+    begin = 0
     for row, (name, one) in enumerate(found.items()):
-        line = panels[:, row : row + 1] if len(others) == 1 else panels[row :: len(found)]
-        for axes, model in zip(line.flat, others, strict=False):
-            if model not in one.drawn:
-                continue
+        end = begin + (1 if beside else _lines(one, panels.shape[1]))
+        line = panels[:, row : row + 1] if beside else panels[begin:end]
+        begin = end
+        for axes, (model, difference) in zip(line.flat, one.drawn.items(), strict=False):
             axes.set_axis_on()
-            image = _map(axes, *place, one.drawn[model], **one.colours)
+            image = _map(axes, *place, difference, **one.colours)
             axes.set_title(model, fontsize=9)
             axes.set_xlabel(along.label, fontsize=8)
             axes.set_ylabel("across, mm", fontsize=8)

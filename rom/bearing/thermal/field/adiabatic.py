@@ -1,15 +1,21 @@
 """The mean temperatures of a film whose walls take no heat."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm, Mixture, hottest, start_of
-from roughfilm.rom.bearing.thermal.field.mixing import FIRST_SLOPE, at_mixture, new_lubricant, replaced, returning
+from roughfilm.rom.bearing.shear_thinning import mean_gap
+from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm, hottest, start_of
+from roughfilm.rom.bearing.thermal.field.mixing import MIXED, at_mixture, new_lubricant, replaced, returning
+from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
+from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.shear_thinning.film import thinned
 from roughfilm.rom.temperature.mean import MeanTemperature, mean_temperature
 
 
@@ -35,37 +41,81 @@ class AdiabaticWalls:
         scene, liquid = self.scene, self.scene.lubricant.liquid
         new = new_lubricant(scene, solution, liquid.temperature)
         cooled, back = replaced(scene, solution, liquid), returning(scene, solution, new)
+        rubs, effective = rubbing(scene, solution, near), thinned_liquid(scene, solution, near)
 
         def temperatures(inlet: float | None, known: MeanTemperature | None) -> MeanTemperature:
-            entering = new if inlet is None or back is None else np.where(back.inlet, inlet, new)
-            start = start_of(near, solution) if known is None else known.temperature
-            return mean_temperature(solution, liquid, entering=entering, exchange=cooled, wall=new, start=start)
-
-        mixture = None
-        if back is None:
-            found = temperatures(None, None)
-        else:
-            known = None if near is None else near.inlet
-            first, slope = (back.new, FIRST_SLOPE * back.share) if known is None else (known.temperature, known.slope)
-            found, inlet, slope = at_mixture(
-                temperatures, lambda one: back.mixture(liquid, one.temperature), first, slope, None
+            return mean_temperature(
+                solution,
+                effective,
+                entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
+                exchange=cooled,
+                wall=new,
+                added_power=0.0 if rubs is None else rubs.power,
+                start=start_of(near, solution) if known is None else known.temperature,
             )
-            mixture = Mixture(temperature=inlet, slope=slope)
+
+        if back is None:
+            found, mixture = temperatures(None, None), None
+        else:
+            found, mixture = at_mixture(
+                temperatures,
+                lambda one: back.mixture(liquid, one.temperature),
+                back.first if near is None or near.inlet is None else near.inlet,
+                solution.state.pressure.size,
+            )
+        viscosities, stress = with_thinning(scene, solution, found, near)
         generated = float(found.dissipation.sum())
         return HeatedFilm(
             grid=solution.grid,
             temperature=found.temperature,
-            viscosities=found.viscosities,
+            viscosities=viscosities,
             highest=float(found.temperature.max()),
             place=hottest(found.temperature, solution.grid),
             inlet=mixture,
             outlet=None if np.isnan(found.outlet_temperature) else found.outlet_temperature,
             generated=generated,
             to_lubricant=generated - found.stored,
-            to_fixed_wall=0.0,
-            to_sliding_wall=0.0,
             imbalance=found.imbalance,
+            friction=None if rubs is None else rubs.friction,
+            start=stress,
+            settled=mixture is None or abs(mixture.error) <= MIXED,
         )
+
+
+def thinned_liquid(scene: Bearing, solution: Solution, near: HeatedFilm | None) -> Liquid:
+    """The lubricant with the viscosity of its shear, as it changes with the temperature at each node of a film.
+
+    A lubricant that thins with shear has the viscosity of the film over that at rest at the temperatures of ``near``.
+    """
+    liquid, own = scene.lubricant.liquid, solution.problem.at_nodes
+    if scene.lubricant.shear_thinning is None or own is None:
+        return liquid
+    known = start_of(near, solution)
+    at_rest = liquid.viscosity(np.full(solution.grid.shape, liquid.temperature) if known is None else known)[0]
+    ratio = own.shear / at_rest
+
+    def viscosity(temperature: Array) -> tuple[Array, Array]:
+        eta, slope = liquid.viscosity(temperature)
+        return ratio * eta, ratio * slope
+
+    return replace(liquid, viscosity=viscosity)
+
+
+def with_thinning(
+    scene: Bearing, solution: Solution, found: MeanTemperature, near: HeatedFilm | None
+) -> tuple[Viscosities, Array | None]:
+    """The viscosities at the temperatures of a film, with its shear thinning, and the stress that this gives."""
+    law, start = scene.lubricant.shear_thinning, None if near is None else near.start
+    if law is None:
+        return found.viscosities, None
+    sheared = thinned(
+        solution,
+        law.curve(scene.lubricant.viscosity),
+        viscosity=scene.lubricant.liquid.viscosity(found.temperature)[0],
+        gap=mean_gap(solution),
+        start=start if isinstance(start, np.ndarray) and start.shape[:2] == solution.grid.shape else None,
+    )
+    return sheared.viscosities, sheared.stress
 
 
 solve_adiabatic = partial(solve_heated, heating=AdiabaticWalls)

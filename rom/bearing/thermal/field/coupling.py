@@ -51,6 +51,11 @@ class Heated(Protocol):
         """Viscosities at these temperatures at the nodes, each of shape (nx, ny)."""
         ...
 
+    @property
+    def settled(self) -> bool:
+        """Whether they meet the tolerance of the energy equation; further steps for the same film do if not."""
+        ...
+
 
 class Film(Protocol):
     """A film of a bearing with its solution."""
@@ -132,8 +137,11 @@ def coupled(
         if not hottest[-1] <= HOTTEST:
             raise ConvergenceError(_runaway(hottest), outcome=Outcome.DIVERGED, iterations=len(changes))
         if changes[-1] <= tolerance and largest <= LARGEST_OVER_MEAN * tolerance:
-            return Coupled(film=film, heated=heated, changes=tuple(changes), largest=largest)
-        film = again(film, memory.following(used, following, solution.grid.areas))
+            if heated.settled:
+                return Coupled(film=film, heated=heated, changes=tuple(changes), largest=largest)
+        else:
+            step = memory.following(used, following, solution.grid.areas) if heated.settled else following
+            film = again(film, step)
     raise ConvergenceError(
         f"temperature: the viscosity of the film and that at its temperatures differ by {changes[-1]:.1e} after "
         f"{MAX_FILMS} films, above the tolerance of {tolerance:.1e}; take more cells, or {RUNAWAY}",

@@ -24,12 +24,19 @@ class Mixture:
 
     Attributes
     ----------
-    temperature : temperature of the mixture of new and hot lubricant, K.
+    temperature : temperature at the inlet, K.
+    error : difference of the mixture of new and hot lubricant from it, K.
     slope : change of the mixture with the temperature at the inlet, by what returns.
     """
 
     temperature: float
+    error: float
     slope: float
+
+    @property
+    def following(self) -> float:
+        """The temperature at the inlet, K, that is expected to be that of its mixture."""
+        return self.temperature + self.error / (1 - self.slope)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,11 +56,13 @@ class HeatedFilm:
     outlet : temperature of the lubricant that leaves the film, K; None if none leaves.
     generated : power that becomes heat.
     to_lubricant : heat that the lubricant takes away.
-    to_fixed_wall, to_sliding_wall : heat into the walls.
     imbalance : error of the heat balance over the heat flows.
+    to_fixed_wall, to_sliding_wall : heat into the walls; None of walls that take no heat.
     shaft : temperature of a turning shaft, K; None of another wall.
+    friction : coefficient of boundary friction; None without asperities.
     walls : temperatures of walls at the nodes, K, shape (nx, ny), by the name of the field.
     start : what the next iteration starts from.
+    settled : whether the energy equation is solved to its tolerance, and the mixture at the inlet is that of the film.
     """
 
     grid: Grid
@@ -65,12 +74,14 @@ class HeatedFilm:
     outlet: float | None
     generated: float
     to_lubricant: float
-    to_fixed_wall: float
-    to_sliding_wall: float
     imbalance: float
+    to_fixed_wall: float | None = None
+    to_sliding_wall: float | None = None
     shaft: float | None = None
+    friction: float | None = None
     walls: Mapping[str, Array] = field(default_factory=dict)
     start: object = None
+    settled: bool = True
 
 
 def hottest(temperature: Array, grid: Grid) -> tuple[float, float]:

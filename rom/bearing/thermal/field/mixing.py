@@ -14,6 +14,7 @@ from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.field.coupling import HOTTEST
+from roughfilm.rom.bearing.thermal.field.heated import Mixture
 from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.cavitation.evaluation.flows import flow_along, node_balances
 from roughfilm.rom.cavitation.solve import Solution
@@ -23,6 +24,9 @@ HeatedT = TypeVar("HeatedT")
 
 MIXED = 1e-4
 """Error of the temperature of a mixture, K, at which its iteration stops."""
+
+COARSE_NODES = 1000
+"""Largest number of nodes of a grid on which the mixture of each film is iterated to the end."""
 
 LEAST_STEP = 0.01
 """Smallest step of the temperature at the inlet, K, from which the slope of the mixture is taken."""
@@ -59,6 +63,11 @@ class Returning:
     leaving: Array
     share: float
     new: float
+
+    @property
+    def first(self) -> Mixture:
+        """The mixture from which an iteration starts."""
+        return Mixture(temperature=self.new, error=0.0, slope=FIRST_SLOPE * self.share)
 
     def mixture(self, liquid: Liquid, temperature: Array) -> float:
         """The temperature of the mixture, K, from those of the nodes, shape (nx, ny)."""
@@ -157,44 +166,46 @@ def replaced(scene: Bearing, solution: Solution, liquid: Liquid) -> Array:
 def at_mixture(
     solve: Callable[[float, HeatedT | None], HeatedT],
     image: Callable[[HeatedT], float],
-    first: float,
-    slope: float,
-    near: HeatedT | None,
-) -> tuple[HeatedT, float, float]:
-    """The temperatures of a film whose inlet has the temperature of the mixture that they bring about.
+    first: Mixture,
+    nodes: int,
+) -> tuple[HeatedT, Mixture]:
+    """The temperatures of a film whose inlet has about the temperature of the mixture that they bring about.
 
     The heat that leaves grows by less than the heat that enters, since warmer lubricant is thinner, so that the mixture
     contracts by at most its share of hot lubricant and what stays in the film; the iteration extrapolates this slope.
+    On a fine grid there is one step, with the slope of a coarse one: the film changes with the mixture anyway.
 
     Parameters
     ----------
     solve : solve(temperature, near), the temperatures of the film, K, for a temperature at the inlet.
     image : image(temperatures), the temperature of their mixture, K.
-    first, slope : temperature at the inlet from which the iteration starts, K, and the change of the mixture with it.
+    first : mixture from which the iteration starts.
+    nodes : number of nodes of the grid.
 
     Returns
     -------
-    temperatures, inlet, slope
-        The temperatures of the film, that at the inlet, K, and the change of the mixture with it.
+    temperatures, mixture
+        The temperatures of the film and the mixture at its inlet.
 
     Raises
     ------
     ConvergenceError
         If the mixture does not converge.
     """
-    inlet, before = first, None
+    inlet, slope, before, near = first.following, first.slope, None, None
     for _ in range(MAX_MIXTURES):
         near = solve(inlet, near)
         rest = image(near) - inlet
         if before is not None and abs(inlet - before[0]) >= LEAST_STEP:
             slope = min(max(1 + (rest - before[1]) / (inlet - before[0]), 0.0), STEEPEST)
-        if abs(rest) <= MIXED:
-            return near, inlet, slope
+        mixture = Mixture(temperature=inlet, error=rest, slope=slope)
+        if abs(rest) <= MIXED or nodes > COARSE_NODES:
+            return near, mixture
         if inlet > HOTTEST:
             break
-        before, inlet = (inlet, rest), inlet + rest / (1 - slope)
+        before, inlet = (inlet, rest), mixture.following
     raise ConvergenceError(
-        f"temperature: thermal runaway, hot lubricant enters the film again and heats its inlet to "
+        "temperature: thermal runaway, hot lubricant enters the film again and heats its inlet to "
         f"{inlet - ZERO_CELSIUS:.4g} degC and above; lower heat.carried_over, or let more new lubricant in through "
         "sides or supplies",
         outcome=Outcome.DIVERGED,

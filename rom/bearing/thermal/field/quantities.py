@@ -12,6 +12,7 @@ from roughfilm.rom.bearing.thermal.field.coupling import Heating
 from roughfilm.rom.bearing.thermal.field.films import HeatedSolution
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.field.residual import residual_of
+from roughfilm.rom.bearing.thermal.field.rubbing import with_friction
 from roughfilm.rom.cavitation.solve import Solution
 
 PLACES = ("temperature_max_x", "temperature_max_y")
@@ -65,7 +66,7 @@ class HeatedOutputs:
         turns.
         """
         found = self.heated(solution)
-        return self.base.quantities(scene, solution) | _quantities(solution, found)
+        return self.base.quantities(with_friction(scene, found.friction), solution) | _quantities(solution, found)
 
     def factor_uncertainties(
         self, scene: Bearing, solution: Solution, quantities: Mapping[str, Quantity]
@@ -74,7 +75,8 @@ class HeatedOutputs:
 
         A heating grows with the friction and falls with the flow of the lubricant that takes it away.
         """
-        heated = _quantities(solution, self.heated(solution))
+        found = self.heated(solution)
+        scene, heated = with_friction(scene, found.friction), _quantities(solution, found)
         plain = {name: one for name, one in quantities.items() if name not in heated}
         own = dict(self.base.factor_uncertainties(scene, solution, plain))
         relative = sum(

@@ -25,6 +25,7 @@ class GivenTemperature:
     """Temperatures of a film that a rule gives, with the viscosity η₀ exp(-0.03 (T - 300 K))."""
 
     temperature: Array
+    settled: bool = True
 
     @property
     def viscosities(self) -> Viscosities:

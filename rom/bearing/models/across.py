@@ -1,0 +1,41 @@
+"""The film whose temperature varies over its plane and across it, between the walls of the table [heat]."""
+
+from dataclasses import replace
+
+from roughfilm.contact.foundation.deferred import deferred
+from roughfilm.rom.bearing.model import SOURCES, bearing_model
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.applies import across_applies
+from roughfilm.rom.ladder.model import Effect
+
+FILMS = 10.0
+"""CPU time over that of an isothermal film."""
+
+_MODEL = bearing_model(
+    name="across",
+    summary="adds the temperature across the film, and walls that take heat",
+    keeps=frozenset(
+        {
+            Effect.SIDE_FLOW,
+            Effect.CAVITATION,
+            Effect.PRESSURE_DEPENDENCE,
+            Effect.ROUGHNESS,
+            Effect.DEFORMATION,
+            Effect.PLASTICITY,
+            Effect.HEATING,
+            Effect.TEMPERATURE_FIELD,
+            Effect.TEMPERATURE_ACROSS,
+        }
+    ),
+    sources=(*SOURCES, "10.1016/S0020-7403(62)80038-1"),
+    applies=across_applies,
+    in_plane=4e-6,
+)
+
+
+def cost(scene: Bearing, cells: int) -> float:
+    """The expected CPU seconds: those of the film and of its temperatures."""
+    return FILMS * _MODEL.cost(scene, cells)
+
+
+MODEL = replace(_MODEL, cost=cost, compute=deferred("rom.bearing.thermal.field.across", "solve_across"))

@@ -1,0 +1,174 @@
+"""The temperatures over a film and across it, between the walls of a scene."""
+
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
+from roughfilm.rom.bearing.thermal.field.mixing import MIXED, at_mixture, new_lubricant, returning, temperature_of
+from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
+from roughfilm.rom.bearing.thermal.field.solve import solve_heated
+from roughfilm.rom.bearing.thermal.tables import Adiabatic, Conducting, GivenTemperature, HalfSpace, Heat, Turning
+from roughfilm.rom.cavitation.evaluation.flows import node_balances
+from roughfilm.rom.cavitation.interpolation import interpolated
+from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.temperature.across import TemperatureAcross, temperature_across
+from roughfilm.rom.temperature.walls import (
+    ConductingWall,
+    FixedWall,
+    InsulatedWall,
+    SlidingHalfSpace,
+    SlidingWall,
+    TurningWall,
+    WallAtTemperature,
+)
+
+TOLERANCE = 1e-5
+"""Mean change of the temperature over its range at which its iteration stops, as small as that of film and temperature.
+
+On a grid that is finer than that of the film before, the viscosities are renewed once, as the film changes anyway.
+"""
+
+
+@dataclass(frozen=True)
+class BetweenWalls:
+    """The energy equation across the films of a scene.
+
+    Attributes
+    ----------
+    scene : the bearing.
+    """
+
+    scene: Bearing
+
+    def __call__(self, solution: Solution, near: HeatedFilm | None) -> HeatedFilm:
+        """The temperatures of a film, from those of a film near it.
+
+        Raises
+        ------
+        InputError
+            If a wall does not suit the film.
+        ConvergenceError
+            If the temperatures or the mixture at the inlet do not converge.
+        """
+        scene, liquid = self.scene, self.scene.lubricant.liquid
+        new = new_lubricant(scene, solution, liquid.temperature)
+        back, rubs = returning(scene, solution, new), rubbing(scene, solution, near)
+        sliding, fixed = walls_of(scene, liquid.temperature)
+        refined = near is not None and near.temperature.shape != solution.grid.shape
+
+        def temperatures(inlet: float | None, known: TemperatureAcross | None) -> TemperatureAcross:
+            return temperature_across(
+                solution,
+                liquid,
+                sliding_wall=sliding,
+                fixed_wall=fixed,
+                entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
+                added_power=None if rubs is None else rubs.power,
+                start=_start(near, solution) if known is None else known,
+                tolerance=TOLERANCE,
+                renewals=1 if refined else None,
+            )
+
+        if back is None:
+            found, mixture = temperatures(None, None), None
+        else:
+            found, mixture = at_mixture(
+                temperatures,
+                lambda one: back.mixture(liquid, one.carried),
+                back.first if near is None or near.inlet is None else near.inlet,
+                solution.state.pressure.size,
+            )
+        balance, leaving = found.balance, float(np.maximum(-node_balances(solution), 0.0).sum())
+        heat = scene.heat or Heat()
+        turning = heat.sliding_wall
+        given = turning.temperature if isinstance(turning, Turning) else None
+        return HeatedFilm(
+            grid=solution.grid,
+            temperature=found.mean,
+            viscosities=found.viscosities,
+            highest=found.largest,
+            place=found.place[:2],
+            inlet=mixture,
+            outlet=temperature_of(liquid, balance.leaving / leaving) if leaving > 0 else None,
+            generated=balance.dissipation,
+            to_lubricant=balance.leaving - balance.entering + balance.stored,
+            to_fixed_wall=balance.fixed_wall,
+            to_sliding_wall=balance.sliding_wall,
+            imbalance=found.residual,
+            shaft=found.shaft if given is None else given,
+            friction=None if rubs is None else rubs.friction,
+            walls={
+                "sliding_wall_temperature": found.sliding_wall.temperature,
+                "fixed_wall_temperature": found.fixed_wall.temperature,
+            },
+            start=found,
+            settled=not refined and (mixture is None or abs(mixture.error) <= MIXED),
+        )
+
+
+def _start(near: HeatedFilm | None, solution: Solution) -> TemperatureAcross | None:
+    """The temperatures across a film at the nodes of another one; None without a film."""
+    if near is None:
+        return None
+    known = near.start
+    assert isinstance(known, TemperatureAcross)
+    if known.temperature.shape[:2] == solution.grid.shape:
+        return known
+    layers = tuple(np.ascontiguousarray(known.temperature[..., layer]) for layer in range(known.points.size))
+    moved = interpolated(layers, near.grid, solution.grid, solution.problem.shape.joined)
+    fresh = replace(known.iterate, renewals=0, response=None)
+    return replace(known, temperature=np.stack(moved, axis=-1), iterate=fresh)
+
+
+def walls_of(scene: Bearing, supplied: float) -> tuple[SlidingWall, FixedWall]:
+    """The sliding and the fixed wall of the film of a scene.
+
+    Parameters
+    ----------
+    supplied : temperature of the supplied lubricant, K.
+    """
+    heat = scene.heat or Heat()
+    fixed = heat.fixed_wall
+    return _sliding_wall(heat.sliding_wall, supplied), _fixed_wall(fixed, supplied)
+
+
+def _sliding_wall(
+    wall: Adiabatic | GivenTemperature | Conducting | Turning | HalfSpace, supplied: float
+) -> SlidingWall:
+    match wall:
+        case Turning(temperature=None):
+            return TurningWall()
+        case Turning(temperature=float(temperature)):
+            return WallAtTemperature(temperature=temperature)
+        case HalfSpace():
+            return SlidingHalfSpace(
+                conductivity=wall.conductivity,
+                heat_capacity=wall.density * wall.heat_capacity,
+                temperature=supplied if wall.temperature is None else wall.temperature,
+            )
+        case Adiabatic() | GivenTemperature() | Conducting():
+            return _fixed_wall(wall, supplied)
+    raise AssertionError(wall)
+
+
+def _fixed_wall(wall: Adiabatic | GivenTemperature | Conducting, supplied: float) -> FixedWall:
+    match wall:
+        case GivenTemperature():
+            return WallAtTemperature(temperature=wall.temperature)
+        case Conducting():
+            layer = 0.0
+            if wall.thickness is not None:
+                assert wall.conductivity is not None
+                layer = wall.thickness / wall.conductivity
+            behind = 0.0 if wall.heat_transfer is None else 1 / wall.heat_transfer
+            surroundings = supplied if wall.surroundings is None else wall.surroundings
+            return ConductingWall(resistance=layer + behind, surroundings=surroundings)
+        case _:
+            return InsulatedWall()
+
+
+solve_across = partial(solve_heated, heating=BetweenWalls)
+"""The solver of the model ``across``."""
