@@ -184,10 +184,9 @@ def _shear_thinning(numbers: Numbers) -> str:  # noqa: ARG001
 
 
 def _uneven(scene: Bearing) -> str:
-    """What the difference of temperature over the film and across it changes, which one temperature leaves out."""
+    """What the temperature over the film and across it changes, which one temperature leaves out."""
     left_out = viscosity_omitted(scene, HEAT_BALANCE, next(iter(kind_of_scene(scene).compared)))
-    counted = "one temperature for the whole film"
-    return f"; {counted}" if left_out is None else f"; {counted}: {left_out.reason}, which is not counted"
+    return "; one temperature for the whole film" + ("" if left_out is None else f"; not counted: {left_out.reason}")
 
 
 EFFECT_MODELS: Mapping[str, tuple[str, Callable[[Numbers], str]]] = {

@@ -23,8 +23,8 @@ CELLS = {True: (128, 512), False: (32, 64)}
 EFFECTS: Mapping[Effect, str] = {
     Effect.SHEAR_THINNING: "shear thinning",
     Effect.HEATING: "heating",
-    Effect.TEMPERATURE_FIELD: "the difference of temperature over the film",
-    Effect.TEMPERATURE_ACROSS: "the difference of temperature across the film",
+    Effect.TEMPERATURE_FIELD: "the temperature over the film",
+    Effect.TEMPERATURE_ACROSS: "the temperature across the film",
 }
 """The effects on the viscosity, in words."""
 
@@ -69,6 +69,8 @@ class CoarseFilms:
         lacking = self.effects(more) - self.effects(less)
         if Effect.HEATING in lacking:
             lacking -= {Effect.TEMPERATURE_FIELD, Effect.TEMPERATURE_ACROSS}
+        if {Effect.TEMPERATURE_FIELD, Effect.TEMPERATURE_ACROSS} <= lacking:
+            return ["the temperature over the film and across it"]
         return [words for effect, words in EFFECTS.items() if effect in lacking]
 
     def change(self, quantity: str, more: Model[Bearing], less: Model[Bearing]) -> float | None:

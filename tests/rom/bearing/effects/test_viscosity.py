@@ -61,7 +61,7 @@ def test_of_the_best_model_nothing_is_left_out():
 def test_the_part_of_the_heat_balance_is_smaller_and_names_the_field():
     omitted, isothermal = (viscosity_omitted(wedge(), model, "load_per_width") for model in (BALANCE, ISOTHERMAL))
     assert 0 < omitted.part < isothermal.part / 2
-    assert omitted.reason.startswith("the difference of temperature over the film")
+    assert omitted.reason.startswith("the temperature over the film")
 
 
 def test_isothermal_scenes_are_left_alone():
