@@ -71,6 +71,16 @@ def smooth_wall_applies(scene: Bearing, *, applies: Callable[[Bearing], Applicab
     return replace(fits, reason=f"{fits.reason}; treats the wall as smooth: rms height over film = {ratio:.2g}")
 
 
+def newtonian_applies(scene: Bearing, *, applies: Callable[[Bearing], Applicability]) -> Applicability:
+    """Whether a model without shear thinning applies, with the law that it leaves out."""
+    fits = applies(scene)
+    if not fits.applies or scene.lubricant.shear_thinning is None:
+        return fits
+    return replace(
+        fits, reason=f"{fits.reason}; treats the lubricant as Newtonian: leaves out lubricant.shear_thinning"
+    )
+
+
 def smooth_resolutions(scene: Bearing) -> tuple[int, ...]:
     """The numbers of cells from coarse to fine for a smooth wall."""
     return LINE_CELLS if scene.wide else PLANE_CELLS
@@ -118,6 +128,8 @@ def bearing_model(
 
     if Effect.ROUGHNESS not in about["keeps"]:
         applies = partial(smooth_wall_applies, applies=applies)
+    if Effect.SHEAR_THINNING not in about["keeps"]:
+        applies = partial(newtonian_applies, applies=applies)
     return Model(
         **about,
         kind="bearing",

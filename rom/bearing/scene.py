@@ -504,6 +504,15 @@ class Bearing(Scene):
         motion = self.motion.model_copy(update={"over_time": None})
         return self.model_copy(update={"motion": motion, "body": None})
 
+    def check_newtonian(self, what: str) -> None:
+        """Raise InputError if the lubricant has a law of shear thinning, which a calculation does not take."""
+        law = self.lubricant.shear_thinning
+        if law is not None:
+            raise InputError(
+                f"lubricant.shear_thinning: got {law.law!r}; {what} takes Newtonian lubricants, leave it out and give "
+                "the viscosity of the usual shear rate"
+            )
+
     @property
     def supply_patches(self) -> tuple[Patch, ...]:
         """Where the supplies lie in the film."""

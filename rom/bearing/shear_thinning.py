@@ -11,6 +11,8 @@ from roughfilm.rom.bearing.solve import solve
 from roughfilm.rom.bearing.thermal.field.films import HeatedBearing
 from roughfilm.rom.bearing.thermal.isothermal import isothermal_model
 from roughfilm.rom.cavitation.fluid import Viscosities
+from roughfilm.rom.cavitation.grid import Grid
+from roughfilm.rom.cavitation.interpolation import interpolated
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.request import CheckedRequest
@@ -24,8 +26,9 @@ THINNING_TOLERANCE = 1e-6
 
 @dataclass(frozen=True)
 class ThinnedFilm:
-    """The viscosities of a film at its shear, at the one temperature of its lubricant, K, and its stress."""
+    """The viscosities of a film at its shear on a grid, at the one temperature of its lubricant, K, and its stress."""
 
+    grid: Grid
     temperature: Array
     viscosities: Viscosities
     stress: Array
@@ -47,10 +50,18 @@ class Thinning:
 
     def __call__(self, solution: Solution, near: ThinnedFilm | None) -> ThinnedFilm:
         """The viscosities by the law at the flows of a film; ConvergenceError if a stress does not converge."""
-        shape = solution.grid.shape
-        start = None if near is None or near.stress.shape[:2] != shape else near.stress
+        start = None if near is None else stress_on(solution, near.stress, near.grid)
         found = thinned(solution, self.curve, gap=mean_gap(solution), start=start)
-        return ThinnedFilm(np.full(shape, self.temperature), found.viscosities, found.stress)
+        temperature = np.full(solution.grid.shape, self.temperature)
+        return ThinnedFilm(solution.grid, temperature, found.viscosities, found.stress)
+
+
+def stress_on(solution: Solution, stress: Array, grid: Grid) -> Array:
+    """The stress of a film near a solution at its nodes, shape (nx, ny, 4), from that on another grid."""
+    if stress.shape[:2] == solution.grid.shape:
+        return stress
+    parts = tuple(np.ascontiguousarray(part) for part in np.moveaxis(stress, -1, 0))
+    return np.stack(interpolated(parts, grid, solution.grid, solution.problem.shape.joined), axis=-1)
 
 
 def mean_gap(solution: Solution) -> Array:

@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.shear_thinning import ThinningCurve
-from roughfilm.rom.shear_thinning.straight_gap import ShearedGap, thinned_by_flow
+from roughfilm.rom.shear_thinning.straight_gap import ShearedGap, thinned_across, thinned_by_flow
 
 
 def thinned(
@@ -54,23 +54,65 @@ def thinned(
 
     Source: Heid and Wihler 2020, Mathematics of Computation 89, 2707, for Kačanov's method and its convergence.
     """
-    problem, grid, pressure = solution.problem, solution.grid, solution.state.pressure
+    problem, pressure = solution.problem, solution.state.pressure
     h = solution.faces.thickness if gap is None else gap
-    own = problem.at_nodes
     at_rest = np.full(h.shape, problem.viscosity) if viscosity is None else viscosity
     under_pressure = at_rest / problem.piezoviscosity.fluidity(pressure, at_rest)[0]
-    flow = (problem.viscosity if own is None else own.flow) / problem.fluidity(pressure)[0]
-    speed = problem.speed * (grid.radius if problem.shape.polar else 1.0)
-    along, across = pressure_gradient(solution)
-    carried = 0.0 if own is None else (own.carried - 1) * speed * h / 2
-    driven = carried - h**3 / (12 * flow) * along, -(h**3) / (12 * flow) * across
-    found = thinned_by_flow(curve, under_pressure, h, speed, driven, start)
+    found = thinned_by_flow(curve, under_pressure, h, *_moved(solution, h), start)
     own_flow = found.viscosities.flow
     at_cavitation = at_rest * (own_flow / under_pressure) ** _steepness(problem, pressure)
     viscosities = replace(
         found.viscosities, flow=at_cavitation, shear=found.viscosities.shear / own_flow * at_cavitation
     )
     return replace(found, viscosities=viscosities)
+
+
+def thinned_profiles(
+    solution: Solution,
+    curve: ThinningCurve,
+    viscosity: Array,
+    across: tuple[Array, Array],
+    *,
+    gap: Array | None = None,
+    start: Array | None = None,
+) -> tuple[Array, Array]:
+    """The viscosities by the law of shear thinning at points across a film whose temperature varies across it.
+
+    Parameters
+    ----------
+    solution : a film, with its own viscosities.
+    curve : fluidity over stress.
+    viscosity : viscosity η₀ at rest at the points and the cavitation pressure, Pa s, shape (nx, ny, points).
+    across : points z/h from the sliding wall, and the weights of a quadrature over 0 to 1 at these points.
+    gap : mean gap at the nodes, m, shape (nx, ny); by default the film thickness.
+    start : stress of a film near this one on the same grid, shape (nx, ny, 4).
+
+    Returns
+    -------
+    viscosity, stress
+        Viscosity of the shape of ``viscosity``, Pa s, which under the pressure law of the problem is that of the law
+        under pressure, and the stress.
+
+    Raises
+    ------
+    ConvergenceError
+        If the stress across the film does not converge at a node.
+    """
+    h = solution.faces.thickness if gap is None else gap
+    pressure = np.broadcast_to(solution.state.pressure[..., None], viscosity.shape)
+    under_pressure = viscosity / solution.problem.piezoviscosity.fluidity(pressure, viscosity)[0]
+    found, stress = thinned_across(curve, under_pressure, across, h, *_moved(solution, h), start)
+    return viscosity * (found / under_pressure) ** _steepness(solution.problem, pressure), stress
+
+
+def _moved(solution: Solution, h: Array) -> tuple[Array, tuple[Array, Array]]:
+    """The speed of the sliding wall, m/s, and the flow of a film less u h/2 along the sliding, m²/s, at its nodes."""
+    problem, own = solution.problem, solution.problem.at_nodes
+    flow = (problem.viscosity if own is None else own.flow) / problem.fluidity(solution.state.pressure)[0]
+    speed = np.broadcast_to(problem.speed * (solution.grid.radius if problem.shape.polar else 1.0), h.shape)
+    along, across = pressure_gradient(solution)
+    carried = 0.0 if own is None else (own.carried - 1) * speed * h / 2
+    return speed, (carried - h**3 / (12 * flow) * along, -(h**3) / (12 * flow) * across)
 
 
 def pressure_gradient(solution: Solution) -> tuple[Array, Array]:

@@ -337,8 +337,9 @@ def thinned_across(
     thickness: Array,
     speed: Array | float,
     driven: tuple[Array, Array],
-) -> Array:
-    """The viscosity at points across a film, Pa s, whose viscosity at rest varies across, as by its temperature.
+    start: Array | None = None,
+) -> tuple[Array, Array]:
+    """The viscosity at points across a film, Pa s, whose viscosity at rest varies across, and the stress.
 
     Parameters
     ----------
@@ -348,6 +349,7 @@ def thinned_across(
     thickness : film thickness h, m, shape (...), as ``speed`` and the flows.
     speed : speed u of the sliding wall, m/s.
     driven : the flow less that of sliding at a uniform viscosity, (q_x - u h/2, q_y), m²/s.
+    start : stress of a film near this one, shape (..., 4).
 
     Raises
     ------
@@ -359,5 +361,7 @@ def thinned_across(
     unit = mean / (thickness * curve.stress)
     moment = np.stack([np.broadcast_to(-unit / thickness * one, mean.shape).ravel() for one in driven], axis=1)
     relative = np.ascontiguousarray((mean[..., None] / viscosity).reshape(-1, points.size))
-    _, fluidity, _ = _balanced(curve, (unit * speed).ravel(), moment, None, (points, weights, relative))
-    return np.asarray(mean[..., None] / fluidity.reshape(viscosity.shape))
+    near = None if start is None else start.reshape(-1, 4)
+    _, fluidity, stress = _balanced(curve, (unit * speed).ravel(), moment, None, (points, weights, relative), near)
+    thinned = viscosity / (fluidity / relative).reshape(viscosity.shape)
+    return thinned, stress.reshape(*mean.shape, 4)

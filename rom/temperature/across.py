@@ -13,6 +13,7 @@ from roughfilm.rom.temperature.basis import Basis, basis
 from roughfilm.rom.temperature.equations import (
     Audit,
     Equations,
+    Linearised,
     Plane,
     audited,
     equations,
@@ -21,6 +22,7 @@ from roughfilm.rom.temperature.equations import (
     viscosities_across,
 )
 from roughfilm.rom.temperature.power import Carriers, carriers
+from roughfilm.rom.temperature.properties import OverHeat, over_heat
 from roughfilm.rom.temperature.sweeps import summarise, sweep
 from roughfilm.rom.temperature.walls import FixedWall, SlidingWall, TurningWall, WallCondition, condition
 
@@ -56,6 +58,9 @@ LEAST_RANGE = 0.01
 
 ROUND_OFF = 256 * float(np.finfo(float).eps)
 """Round-off of the residuals over the heat that would be conducted across the film by the range of its temperature."""
+
+LARGEST_RISE = 1000.0
+"""Largest difference from the temperature of the supply, K, before the iteration ends."""
 
 LAST_SWEEPS = 400
 """Largest number of sweeps with the last equations."""
@@ -259,8 +264,10 @@ def _solved(
     film: _Film, temperature: Array, before: Iterate | None, tolerance: float, most: int | None
 ) -> TemperatureAcross:
     """Renew viscosities and equations, and sweep, until the temperature no longer changes."""
-    near = linearised(film.liquid, temperature)
+    supply = film.liquid.temperature
     heat = np.array(np.broadcast_to(film.liquid.heat(temperature)[0], temperature.shape))
+    properties = over_heat(film.liquid, heat)
+    near = linearised(properties, supply, heat)
     response = np.zeros(temperature.shape) if film.turning else None
     done, reach, slope = 0, None, 0.0
     if before is not None and before.reach[0].shape == temperature.shape:
@@ -268,7 +275,7 @@ def _solved(
         if film.turning and before.response is not None:
             response, slope = before.response.copy(), before.slope
     into_wall, sweeps, renewed, change = np.zeros(temperature.shape[:2]), 0, 0, np.inf
-    fixed = film.solution, film.liquid, film.moved, film.nodes, film.parts
+    fixed = film.solution, supply, film.moved, film.nodes, film.parts
     known: Equations | None = None
     while True:
         known = system = equations(*fixed, near, film.walls, heat, reach, known)
@@ -278,28 +285,50 @@ def _solved(
             slope = _respond(film, system, response)
         changes = _relaxed(film, system, heat, into_wall, response, slope, FALL, SWEEPS)
         sweeps, change = sweeps + len(changes), changes[0] / _range(heat, near.inverse_capacity)
-        near = linearised(film.liquid, near.at(heat))
-        if change <= tolerance or renewed == (RENEWALS if most is None else most) or not np.isfinite(change):
+        properties = _containing(film.liquid, properties, heat, sweeps)
+        near = linearised(properties, supply, heat)
+        if change <= tolerance or renewed == (RENEWALS if most is None else most):
             break
-    checked = audited(system, film.nodes, film.parts, heat, near.rise(heat), film.walls)
-    residual, rounded = _residual(film, system, checked, near.rise(heat))
+    checked = audited(system, film.nodes, film.parts, heat, near.temperature - supply, film.walls)
+    residual, rounded = _residual(film, system, checked, near.temperature - supply)
     least = max(RESIDUAL_TOLERANCE, rounded)
     while most is None and residual > least and sweeps < LAST_SWEEPS:
         sweeps += len(_relaxed(film, system, heat, into_wall, response, slope, 0.0, 2))
-        near = linearised(film.liquid, near.at(heat))
-        checked = audited(system, film.nodes, film.parts, heat, near.rise(heat), film.walls)
-        residual, rounded = _residual(film, system, checked, near.rise(heat))
+        near = linearised(properties, supply, heat)
+        checked = audited(system, film.nodes, film.parts, heat, near.temperature - supply, film.walls)
+        residual, rounded = _residual(film, system, checked, near.temperature - supply)
         least = max(RESIDUAL_TOLERANCE, rounded)
-    if not np.isfinite(residual) or (most is None and (residual > least or change > tolerance)):
+    if most is None and (residual > least or change > tolerance):
         raise ConvergenceError(
             f"temperature across the film: after {sweeps} sweeps it changes by {change:.1e} of its range, with a "
             f"residual of {residual:.1e}, above the tolerances {tolerance:.1e} and {least:.1e}; take more "
             "cells, or a lower speed or viscosity",
-            outcome=Outcome.UNFINISHED if np.isfinite(residual) else Outcome.DIVERGED,
+            outcome=Outcome.UNFINISHED,
             iterations=sweeps,
         )
     following = Iterate(reach=system.reach, renewals=done, response=response, slope=slope)
-    return _result(film, system, heat, near.temperature, checked, residual, change, sweeps, following)
+    return _result(film, system, heat, near, checked, residual, change, sweeps, following)
+
+
+def _containing(liquid: Liquid, properties: OverHeat, heat: Array, sweeps: int) -> OverHeat:
+    """A table of a liquid that contains a heat, J/m³.
+
+    Raises
+    ------
+    ConvergenceError
+        If the heat is not finite, or its range is larger than any law of viscosity holds for.
+    """
+    if properties.contains(heat):
+        return properties
+    capacity = float(np.ravel(liquid.heat(np.array([liquid.temperature]))[1])[0])
+    if not np.abs(heat).max() <= LARGEST_RISE * capacity:
+        raise ConvergenceError(
+            f"temperature across the film: after {sweeps} sweeps it differs by more than {LARGEST_RISE:g} K from that "
+            "of the supply, where no lubricant is liquid; lower the speed or the viscosity, or cool the film more",
+            outcome=Outcome.DIVERGED,
+            iterations=sweeps,
+        )
+    return over_heat(liquid, heat)
 
 
 def _relaxed(
@@ -369,7 +398,7 @@ def _result(
     film: _Film,
     system: Equations,
     heat: Array,
-    temperature: Array,
+    near: Linearised,
     checked: Audit,
     residual: float,
     change: float,
@@ -377,7 +406,7 @@ def _result(
     iterate: Iterate,
 ) -> TemperatureAcross:
     """The fields and the heat balance of a converged iteration."""
-    parts, nodes = film.parts, film.nodes
+    parts, nodes, temperature = film.parts, film.nodes, near.temperature
     mean, carried, peaks, low, high = (np.empty(nodes.area.shape) for _ in range(5))
     written = mean, carried, peaks, low, high
     flows = system.along, system.leaving, system.stored
@@ -397,7 +426,7 @@ def _result(
         weights=parts.weights,
         mean=mean,
         carried=carried,
-        viscosities=viscosities_across(parts, film.liquid.viscosity(temperature)[0]),
+        viscosities=viscosities_across(parts, near.viscosity),
         sliding_wall=WallHeat(temperature=low, flux=film.moved.filling * checked.into_sliding),
         fixed_wall=WallHeat(temperature=high, flux=film.moved.filling * checked.into_fixed),
         largest=largest,

@@ -12,6 +12,7 @@ from roughfilm.rom.temperature.basis import Basis
 from roughfilm.rom.temperature.blocks import LANES, blocks, exchange, sources, upward_flows
 from roughfilm.rom.temperature.power import Carriers
 from roughfilm.rom.temperature.profiles import divide, profile
+from roughfilm.rom.temperature.properties import OverHeat
 from roughfilm.rom.temperature.sweeps import audit, reaches
 from roughfilm.rom.temperature.walls import WallCondition
 
@@ -21,31 +22,31 @@ OVERSHOOT = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class Linearised:
-    """Temperatures T = T₀ + offset + E/(ρc) near a field, K, over the heat E of a volume, J/m³; shape (nx, ny, N)."""
+    """The temperature T = T₀ + offset + E/(ρc) near a heat E of a volume, J/m³; arrays of shape (nx, ny, N).
 
-    supply: float
+    Attributes
+    ----------
+    temperature, offset : T and offset, K.
+    inverse_capacity : 1/(ρc), m³ K/J.
+    viscosity, steepness : η, Pa s, and dη/dT.
+    """
+
     temperature: Array
     offset: Array
     inverse_capacity: Array
-
-    def rise(self, heat: Array) -> Array:
-        """T - T₀ at a heat."""
-        return np.asarray(self.offset + heat * self.inverse_capacity)
-
-    def at(self, heat: Array) -> Array:
-        """The temperatures at a heat."""
-        return self.supply + self.rise(heat)
+    viscosity: Array
+    steepness: Array
 
 
-def linearised(liquid: Liquid, temperature: Array) -> Linearised:
-    """The temperature over the heat of a liquid near given temperatures."""
-    heat, capacity = liquid.heat(temperature)
-    inverse = 1 / np.broadcast_to(capacity, temperature.shape)
+def linearised(properties: OverHeat, supply: float, heat: Array) -> Linearised:
+    """The temperature and the viscosity near a heat, of a liquid that is supplied at the temperature T₀, K."""
+    temperature, inverse, viscosity, thinning = properties(heat)
     return Linearised(
-        supply=liquid.temperature,
         temperature=temperature,
-        offset=(temperature - liquid.temperature) - heat * inverse,
+        offset=(temperature - supply) - heat * inverse,
         inverse_capacity=inverse,
+        viscosity=viscosity,
+        steepness=thinning / inverse,
     )
 
 
@@ -131,7 +132,7 @@ class Equations:
 
 def equations(
     solution: Solution,
-    liquid: Liquid,
+    supply: float,
     moved: Carriers,
     nodes: Plane,
     parts: Basis,
@@ -143,12 +144,12 @@ def equations(
 ) -> Equations:
     """The equations with the viscosities of the temperatures of ``near``, and a dissipation linear near them.
 
+    ``supply`` is T₀, K.
     The values at the faces have the factors ``reach``, or are limited for a heat, J/m³, where these are None. The
     arrays of the equations ``before``, except for these factors, are written again, which saves time.
     """
     shape, net, size = near.temperature.shape, solution.network, parts.points.size
     shear, stored = np.empty(shape[:2]), np.empty(shape[:2])
-    viscosity, steepness = (np.ascontiguousarray(values) for values in liquid.viscosity(near.temperature))
     drift, push = np.empty(shape), np.empty(shape)
     if before is None:
         heating, softening, along, beside, entering, leaving, upward = (np.empty(shape) for _ in range(7))
@@ -164,7 +165,7 @@ def equations(
     moving = moved.speed, moved.gradient_x, moved.gradient_y
     across = parts.points, parts.weights, parts.integrals
     profiles = drift, push, heating, softening
-    profile(viscosity, steepness, *across, thickness, *moving, *profiles, shear)
+    profile(near.viscosity, near.steepness, *across, thickness, *moving, *profiles, shear)
     divide(moved.sliding, moved.pressing, moved.across, drift, push, *nodes.periodic, along, beside)
     exchange(along, beside, net.supplied, drift, push, net.fixed, *nodes.periodic, entering, leaving, stored)
     rising = np.ascontiguousarray((parts.weights[:, None] * parts.integrals / parts.weights).T)
@@ -173,7 +174,7 @@ def equations(
         reach = np.empty(shape), np.empty(shape)
         reaches(heat, along, beside, *nodes.ratios, *nodes.periodic, OVERSHOOT * float(np.ptp(heat)), *reach)
     source, power = np.empty(shape), moved.fluid_power * shear
-    sources(entering, nodes.entering, power, moved.added, near.temperature, near.supply, softening, heating, source)
+    sources(entering, nodes.entering, power, moved.added, near.temperature, supply, softening, heating, source)
     sliding, fixed = walls
     scratch, right = np.ones((size + 2, size + 2, LANES)), np.ones((size + 2, LANES))
     blocks(

@@ -105,6 +105,7 @@ def mean_temperature(
     exchange: float | Array = 0.0,
     wall: float | Array | None = None,
     added_power: float | Array = 0.0,
+    at_rest: Array | None = None,
     start: Array | None = None,
 ) -> MeanTemperature:
     """Solve Σ F e(T) = W η(T)/η - U A (T - T_w), the heat balance of every node, for the temperature over a film.
@@ -131,6 +132,8 @@ def mean_temperature(
     exchange : U, coefficient of the heat transfer to both walls together, W/(m² K).
     wall : T_w, temperature of the walls, K; by default that of the supply.
     added_power : further power that heats the liquid of each node, such as that of asperities which rub, W.
+    at_rest : viscosity at rest of the temperatures with which the film was solved, Pa s, shape (nx, ny), of a liquid
+        that thins with shear: W then changes as the viscosity at rest does. By default η is that of the solution.
     start : temperature from which to start, K, shape (nx, ny).
 
     Raises
@@ -148,7 +151,8 @@ def mean_temperature(
     walls = np.broadcast_to(liquid.temperature if wall is None else wall, shape)
     lost = np.asarray(exchange * solution.grid.areas)
     at_nodes = solution.problem.at_nodes
-    known = solution.problem.viscosity if at_nodes is None else at_nodes.shear
+    own = solution.problem.viscosity if at_nodes is None else at_nodes.shear
+    known = own if at_rest is None else at_rest
     power = dissipation(solution, flows)
     fixed_power, relative_power = np.minimum(power, 0.0) + added_power, np.maximum(power, 0.0) / known
     gained = np.maximum(flows.entering, 0.0) * liquid.heat(inlet)[0]

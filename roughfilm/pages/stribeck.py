@@ -16,7 +16,7 @@ from roughfilm.pages.render import render
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedState
-from roughfilm.rom.bearing.mixed.heated import with_temperature
+from roughfilm.rom.bearing.mixed.search.heated import with_temperature
 from roughfilm.rom.bearing.mixed.stribeck import (
     LOAD_TOLERANCE,
     TEMPERATURES,

@@ -13,6 +13,7 @@ SHOWN = {
     "m^2/s": (1e-4 / 60, "cm²/min"),
     "N*m": (1.0, "N m"),
     "1": (1.0, ""),
+    "degC": (1.0, "°C"),
 }
 """The unit in which a quantity of each SI unit is shown, and its size; that of others depends on their size."""
 

@@ -334,7 +334,8 @@ def _checked(
 
 
 def check_bearing(scene: Bearing) -> None:
-    """Raise InputError for a bearing whose walls do not move freely."""
+    """Raise InputError for a bearing whose walls do not move freely, or whose lubricant thins with shear."""
+    scene.check_newtonian("an analysis of stiffness and damping")
     if not isinstance(scene.geometry, MovingWall):
         raise InputError(
             f"geometry.shape: got {scene.geometry.shape!r}; stiffness and damping are those of a wall that moves "

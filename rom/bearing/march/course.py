@@ -296,6 +296,7 @@ def wall_names(scene: Bearing) -> tuple[str, ...]:
 def refuse_unsupported(duty: Duty) -> None:
     """Raise InputError, in one line, for a scene that has no march."""
     scene = duty.scene
+    scene.check_newtonian("a march")
     if scene.boundary.inlet.ram_factor and "speed" in duty.curves:
         raise InputError("boundary.inlet.ram_factor: got one with a speed over time; give the pressure of the inlet")
     geometry, ends = scene.geometry, scene.ends
@@ -307,6 +308,12 @@ def refuse_unsupported(duty: Duty) -> None:
         )
     if duty.approach and not duty.given_path:
         raise InputError("motion.approach: got one beside a load; give one of the two")
+    start, heat = duty.body.start, scene.heat
+    if start is not None and start.temperature is not None and (heat is None or heat.time_constant is None):
+        raise InputError(
+            "body.start.temperature: got one without heat.time_constant, so that the film has the temperature of its "
+            "balance at once; give the time constant, or leave it out"
+        )
     if duty.approach and scene.geometry.film is None:
         raise InputError("motion.approach: got one without geometry.film; give the film at the first time")
 

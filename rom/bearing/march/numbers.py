@@ -1,5 +1,6 @@
 """The numbers of a film at one time of a march."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.corners import differs
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.course import Duty
@@ -43,11 +45,13 @@ class Observer:
     duty : what moves the bearing.
     film : its film.
     asperities : those of walls that may touch; None of others.
+    heated : whether the film has a temperature.
     """
 
     duty: Duty
     film: FreeFilm
     asperities: AsperityTable | None = None
+    heated: bool = False
 
     @cached_property
     def units(self) -> Mapping[str, str]:
@@ -76,6 +80,8 @@ class Observer:
         units |= dict.fromkeys(self._places, flow) | dict.fromkeys(self._pressures, "Pa")
         units |= {"volume": volume, "volume_rate": flow, "flow_imbalance": "1"}
         units["cavitated_fraction"] = "1"
+        if self.heated:
+            units |= {"temperature": "degC", "balanced_temperature": "degC"}
         return units | {
             "step": "s",
             "order": "1",
@@ -165,7 +171,7 @@ class Observer:
         instant, film, time = moving.instant, self.film.solved, moving.now.time
         wall, speed = self.film.wall, self.duty.speed(time)
         velocity, scale = moving.now.velocity, np.where(wall.turns, 1.0, wall.unit[0])
-        solution = self._solution(instant, abs(speed))
+        solution = self._solution(instant, abs(speed), moving.solved_at)
         force, load = film.force(instant.state.pressure), self.duty.force(time)[: wall.place.size]
         contact, rubbed, touching = self._contact(instant)
         friction, torque, power = self._friction(solution, rubbed)
@@ -180,7 +186,10 @@ class Observer:
         lowest = self.duty.scene.lubricant.cavitation_pressure
         values += [float(instant.state.pressure[nodes].max()) + lowest for nodes in self._pressures.values()]
         cavitated = float(film.grid.areas[instant.kind == CAVITY].sum() / film.grid.areas.sum())
-        values += [stored, rate, imbalance, cavitated, moving.step, moving.order, moving.error]
+        values += [stored, rate, imbalance, cavitated]
+        if self.heated:
+            values += [moving.now.temperature - ZERO_CELSIUS, moving.balanced - ZERO_CELSIUS]
+        values += [moving.step, moving.order, moving.error]
         return np.array([*values, self._residual(instant), instant.force_residual, instant.iterations], dtype=float)
 
     def fields(self, moving: Moving) -> dict[str, tuple[Array, str]]:
@@ -212,11 +221,18 @@ class Observer:
         breaks = self.film.solved.problem.shape.breaks
         return breaks[0] + breaks[-1]
 
-    def _solution(self, instant: Instant, speed: float) -> Solution:
-        """The film that is solved as one of a steady problem."""
-        film = self.film.solved
+    def power(self, time: float, instant: Instant, velocity: Array, temperature: float) -> float:
+        """The power of friction and squeeze of a film whose liquid has a temperature, K, in W."""
+        solution = self._solution(instant, abs(self.duty.speed(time)), temperature)
+        _, rubbed, _ = self._contact(instant)
+        return self._friction(solution, rubbed)[2] - float(self.film.solved.force(instant.state.pressure) @ velocity)
+
+    def _solution(self, instant: Instant, speed: float, temperature: float = math.nan) -> Solution:
+        """The film that is solved as one of a steady problem, with the viscosity at a temperature, K, if it has one."""
+        film, lubricant = self.film.solved, self.duty.scene.lubricant
+        viscosity = film.problem.viscosity if math.isnan(temperature) else lubricant.at(temperature).viscosity
         return Solution(
-            problem=replace(film.problem, speed=speed),
+            problem=replace(film.problem, speed=speed, viscosity=viscosity),
             turned=self.film.turned,
             grid=film.grid,
             faces=instant.faces,

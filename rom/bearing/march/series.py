@@ -2,13 +2,14 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.course import Duty, course_of, film_at, started
+from roughfilm.rom.bearing.march.heated import HeatedMarch
 from roughfilm.rom.bearing.march.numbers import Observer
 from roughfilm.rom.bearing.march.rough_walls import walls_of
 from roughfilm.rom.cavitation.motion.march import Known, Moving, march
@@ -136,11 +137,14 @@ def run(
     """
     walls = walls_of(duty.scene)
     film = film_at(duty, numerics.cells, walls)
-    observer, chunks = Observer(duty=duty, film=film, asperities=walls.contact), list(known)
+    heats = not duty.scene.lubricant.lacking
+    observer, chunks = Observer(duty=duty, film=film, asperities=walls.contact, heated=heats), list(known)
+    warming = HeatedMarch(duty=duty, observer=observer) if heats else None
     if chunks:
         moving = moving_of(film, chunks[-1].state)
     else:
-        moving = started(duty, film, tolerance=tolerance)
+        begin = partial(started, duty, film) if warming is None else warming.started
+        moving = begin(tolerance=tolerance)
         if duty.body.mass is None:
             moving = replace(moving, following=FIRST_STEP * numerics.step)
         first = Snapshot(time=moving.now.time, fields=observer.fields(moving))
@@ -153,7 +157,7 @@ def run(
         )
         keep(chunks[0])
     if moving.now.time < numerics.end * (1 - 1e-12):
-        for chunk in _chunks(duty, film, observer, moving, numerics, tolerance, progress):
+        for chunk in _chunks(duty, observer, warming, moving, numerics, tolerance, progress):
             keep(chunk)
             chunks.append(chunk)
     return Series(
@@ -167,8 +171,8 @@ def run(
 
 def _chunks(
     duty: Duty,
-    film: FreeFilm,
     observer: Observer,
+    warming: HeatedMarch | None,
     moving: Moving,
     numerics: Numerics,
     tolerance: float,
@@ -178,10 +182,10 @@ def _chunks(
     rows: list[Array] = []
     snapshots: list[Snapshot] = []
     left = [time for time in numerics.field_times if time > moving.now.time]
-    begin, last = duty.begin, moving
+    begin, last, film = duty.begin, moving, observer.film
     steps = march(
         film.solved,
-        course_of(duty, film),
+        replace(course_of(duty, film), warming=warming),
         moving,
         numerics.end,
         largest_step=numerics.step,
@@ -234,6 +238,8 @@ def saved(moving: Moving) -> dict[str, Array]:
         "past_place": np.array([known.place for known in past]),
         "past_velocity": np.array([known.velocity for known in past]),
         "past_held": np.array([known.held for known in past]),
+        "past_temperature": np.array([known.temperature for known in past]),
+        "temperatures": np.array([moving.solved_at, moving.balanced]),
         "steps": np.array([moving.step, moving.following, moving.order, moving.error, moving.turned]),
     }
 
@@ -249,9 +255,9 @@ def moving_of(film: FreeFilm, state: Saved) -> Moving:
         kind=state["kind"].astype(np.int8),
     )
     past = tuple(
-        Known(time=float(time), place=place, velocity=velocity, held=held)
-        for time, place, velocity, held in zip(
-            *(state[f"past_{name}"] for name in ("time", "place", "velocity", "held")), strict=True
+        Known(time=float(time), place=place, velocity=velocity, held=held, temperature=float(temperature))
+        for time, place, velocity, held, temperature in zip(
+            *(state[f"past_{name}"] for name in ("time", "place", "velocity", "held", "temperature")), strict=True
         )
     )
     return Moving(
@@ -262,4 +268,6 @@ def moving_of(film: FreeFilm, state: Saved) -> Moving:
         order=int(order),
         error=error,
         turned=bool(turned),
+        solved_at=float(state["temperatures"][0]),
+        balanced=float(state["temperatures"][1]),
     )

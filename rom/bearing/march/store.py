@@ -38,6 +38,8 @@ STATE = {
     "past_place": ("past", "coordinates"),
     "past_velocity": ("past", "coordinates"),
     "past_held": ("past", "nx", "ny"),
+    "past_temperature": ("past",),
+    "temperatures": (2,),
     "steps": (5,),
 }
 """The arrays from which a march goes on, with their shapes."""

@@ -33,6 +33,8 @@ CONTACT_EXTREMES = {
     "contact_area_max": ("largest fraction of the area in contact", "contact_area", max),
 }
 """Titles, columns and extremes of walls that may touch."""
+HEATED_EXTREMES = {"temperature_max": ("highest temperature of the film", "temperature", max)}
+"""The same of a film that has a temperature."""
 
 MEANS = {
     "pivot_film": "mean film at the pivot",
@@ -46,6 +48,7 @@ MEANS = {
     "outlet_flow": "mean flow out",
     "side_flow_low": "mean flow through the low side",
     "side_flow_high": "mean flow through the high side",
+    "temperature": "mean temperature of the film",
 }
 """Titles of the means of columns."""
 
@@ -77,6 +80,7 @@ def summary_of(duty: Duty, series: Series) -> Summary:
     inside = series.time >= first - 1e-9 * (last - first)
     quantities, titles = {}, {}
     extremes = EXTREMES | (CONTACT_EXTREMES if "contact_load" in series.units else {})
+    extremes |= HEATED_EXTREMES if "temperature" in series.units else {}
     for name, (title, column, extreme) in extremes.items():
         quantities[name] = Quantity(value=float(extreme(series[column][inside])), unit=series.units[column])
         titles[name] = title

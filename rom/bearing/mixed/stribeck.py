@@ -15,8 +15,8 @@ from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
-from roughfilm.rom.bearing.mixed.heated import with_temperature
-from roughfilm.rom.bearing.mixed.search import Search, SeparationSearch, Slopes
+from roughfilm.rom.bearing.mixed.search.heated import with_temperature
+from roughfilm.rom.bearing.mixed.search.separation import Search, SeparationSearch, Slopes
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
@@ -184,11 +184,12 @@ def stribeck(
     Raises
     ------
     InputError
-        If the asperities cannot carry a load, if the pressures at the sides alone carry more than a load, or if no
-        speed of a bearing without asperities carries a load.
+        If the asperities cannot carry a load, if the pressures at the sides alone carry more than a load, if no speed
+        of a bearing without asperities carries a load, or if the lubricant thins with shear.
     ConvergenceError
         If a film or the load does not converge.
     """
+    scene.check_newtonian("a Stribeck curve")
     ordered = _checked(speeds, pressures)
     search = with_temperature(curve_search(scene, asperities, ordered, pressures, resolution, tolerance))
     touches = scene.asperities is not None
@@ -274,7 +275,7 @@ def curve_search(
         film = parted_film(scene, speeds, pressures, resolution, tolerance)
     if not isinstance(scene.geometry, MovingWall):
         return SeparationSearch(film=film)
-    from roughfilm.rom.bearing.mixed.place import PlaceSearch  # only walls that move freely need it
+    from roughfilm.rom.bearing.mixed.search.place import PlaceSearch  # only walls that move freely need it
 
     return PlaceSearch(
         scene=scene,

@@ -22,6 +22,7 @@ _MODEL = bearing_model(
             Effect.ROUGHNESS,
             Effect.DEFORMATION,
             Effect.PLASTICITY,
+            Effect.SHEAR_THINNING,
             Effect.HEATING,
             Effect.TEMPERATURE_FIELD,
             Effect.TEMPERATURE_ACROSS,

@@ -25,12 +25,14 @@ class Start(Part):
     film : least film thickness of other bearings, m.
     slopes : slopes along and across the sliding of a pad about a pivot, rad; 0 beside a film.
     velocity : velocity of the shaft along x and y, or at which the walls part, m/s.
+    temperature : temperature of the film, K, with ``heat.time_constant``; by default that of the supplied lubricant.
     """
 
     eccentricity: tuple[Number, Number] | None = None
     film: Length | None = None
     slopes: tuple[Angle, Angle] | None = None
     velocity: Annotated[tuple[Velocity, ...], Field(min_length=1, max_length=2)] | None = None
+    temperature: Annotated[float, InUnit("K")] | None = None
 
 
 class Body(Part):

@@ -58,6 +58,4 @@ def across_applies(scene: Bearing) -> Applicability:
     if isinstance(heat.sliding_wall, HalfSpace) and (scene.motion.speed == 0 or scene.problem().shape.joined[0]):
         why = "heat.sliding_wall: a half space needs a film with an inlet past which it slides; take turning"
         return Applicability(applies=False, reason=why)
-    if scene.lubricant.shear_thinning is None:
-        return fits
-    return replace(fits, reason=f"{fits.reason}; leaves out lubricant.shear_thinning")
+    return fits

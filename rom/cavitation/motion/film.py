@@ -43,6 +43,9 @@ def displace(rest, modes, place, thickness):  # type: ignore[no-untyped-def]
             thickness[n] += mode[n] * moved
 
 
+OF_GEOMETRY = ("_sampled", "at_nodes", "covered", "restricted", "_beside", "weights", "reach", "_between", "_quarters")
+"""Values of a film that its geometry alone determines; the last two are those of rough walls."""
+
 Normal = Callable[[Array, Array], Array]
 """normal(x, y), the derivative ∂h/∂q of the film thickness by a coordinate, vectorised."""
 
@@ -120,6 +123,15 @@ class MovingFilm:
             return np.asarray(rest(x, y) + self.modes(x, y) @ place)
 
         return replace(self.problem.shape, thickness=thickness)
+
+    def with_viscosity(self, viscosity: float) -> "MovingFilm":
+        """The film of a liquid with another viscosity, Pa s, at the cavitation pressure; sampled values are shared."""
+        if viscosity == self.problem.viscosity:
+            return self
+        other = replace(self, problem=replace(self.problem, viscosity=viscosity))
+        for name in OF_GEOMETRY if self.contact is not None or self.closest else OF_GEOMETRY[:-2]:
+            other.__dict__[name] = getattr(self, name)
+        return other
 
     def faces(self, place: Array) -> Faces:
         """The film sampled on the grid at coordinates q."""

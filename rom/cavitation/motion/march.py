@@ -12,6 +12,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.cavitation.balance import FILM
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, UnresistedError, settled, turned_round
 from roughfilm.rom.cavitation.motion.film import MovingFilm
+from roughfilm.rom.cavitation.motion.warming import UNKNOWN, Warming, expected, following
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 
 MAX_GROWTH, MIN_GROWTH, SAFETY = 2.0, 0.2, 0.85
@@ -35,6 +36,10 @@ FIRST_STEP = 1e-3
 TILTED = 0.1
 """Least film thickness over the mean one below which a pad that touches is tilted."""
 
+WARMED, MAX_WARMINGS = 1e-4, 20
+"""Relative error of the viscosity at which the temperature of a step without time constant is found, and the largest
+number of films for it."""
+
 ROUNDOFF = 1e-9
 """Difference of times, over the time step, that counts as none."""
 
@@ -54,6 +59,7 @@ class Course:
     velocity_scale : size of the velocities, m/s, to which the error of a time step is related, for each coordinate.
     names : name of each coordinate, for messages.
     remedies : what to give so that each coordinate resists its motion without a film, such as "body.inertia".
+    warming : how the temperature of the film follows its flow; None of a film without temperature.
     """
 
     free: NDArray[np.bool_]
@@ -65,16 +71,21 @@ class Course:
     velocity_scale: Array
     names: tuple[str, ...] = ()
     remedies: tuple[str, ...] = ()
+    warming: Warming | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class Known:
-    """The coordinates, their velocities, and θh at the nodes, m, at one time, s."""
+    """The coordinates, their velocities, θh at the nodes, m, and the temperature, K, at one time, s.
+
+    The temperature is not a number of a film without one.
+    """
 
     time: float
     place: Array
     velocity: Array
     held: Array
+    temperature: float = UNKNOWN
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,6 +101,8 @@ class Moving:
     order : the order of the step.
     error : estimated relative error of the coordinates of the step.
     turned : whether the wall slides towards decreasing x, so that the film is the mirrored one.
+    solved_at : temperature whose viscosity the film has, K, as it was expected before the step.
+    balanced : temperature T_eq that the heat of the film brings about, K.
     """
 
     instant: Instant
@@ -99,6 +112,8 @@ class Moving:
     order: int = 1
     error: float = 0.0
     turned: bool = False
+    solved_at: float = UNKNOWN
+    balanced: float = UNKNOWN
 
     @property
     def now(self) -> Known:
@@ -141,6 +156,10 @@ def march(
     The volume that a film holds changes by what flows in and out, to the tolerance. The first step, and steps that
     would drain a node below empty, follow backward Euler, of first order. While the wall slides towards decreasing x,
     the film is that mirrored in x, whose nodes hold the same volumes.
+
+    A film with a temperature T, τ dT/dt = T_eq - T, is solved in each step with the viscosity at the temperature that
+    the two times before let expect, to second order; T₊ follows by the same formula from T_eq of the film, with its
+    slope dT_eq/dT, so that steps of any length are stable. Without time constant the step is repeated until T₊ = T_eq.
 
     Parameters
     ----------
@@ -321,15 +340,33 @@ def _attempt(
     back = speed < 0 or (speed == 0 and moving.turned)
     if back != moving.turned:
         moving = _turned_round(film.mirrored if moving.turned else film, moving)
-    return _stepped(
-        film.mirrored if back else film,
-        course,
-        moving,
-        size,
-        (abs(speed), given, force),
-        order=order,
-        tolerance=tolerance,
-        longest=longest,
+    film, driven = film.mirrored if back else film, (abs(speed), given, force)
+    if course.warming is None:
+        return _stepped(film, course, moving, size, driven, order=order, tolerance=tolerance, longest=longest)
+    near, warming = moving.past[:2], course.warming
+    temperature = expected(tuple(one.time for one in near), tuple(one.temperature for one in near), time)
+    for _ in range(MAX_WARMINGS):
+        stepped = _stepped(
+            warming.film(film, temperature),
+            course,
+            moving,
+            size,
+            driven,
+            order=order,
+            tolerance=tolerance,
+            longest=longest,
+        )
+        if not isinstance(stepped, Moving):
+            return stepped
+        stepped = _warmed(warming, replace(stepped, solved_at=temperature))
+        off = abs(stepped.now.temperature - temperature) * warming.sensitivity(temperature)
+        if warming.time_constant > 0:
+            return replace(stepped, error=max(stepped.error, off))
+        if off <= WARMED:
+            return stepped
+        temperature = stepped.now.temperature
+    return ConvergenceError(
+        "motion: the temperature does not converge", outcome=Outcome.STALLED, iterations=MAX_WARMINGS
     )
 
 
@@ -389,19 +426,36 @@ def _stepped(
     )
 
 
+def _warmed(warming: Warming, moving: Moving) -> Moving:
+    """A film after a step, which was solved at an expected temperature, with its temperature."""
+    now, *before = moving.past
+    balanced = warming.balanced(now.time, moving.instant, now.velocity, moving.solved_at, turned=moving.turned)
+    rate, near, far = _weights(tuple(before), moving.step, moving.order)
+    memory = near * before[0].temperature - (far * before[1].temperature if far else 0.0)
+    temperature = following(warming, balanced, moving.solved_at, rate, memory)
+    return replace(moving, past=(replace(now, temperature=temperature), *before), balanced=balanced)
+
+
 def differences(past: tuple[Known, ...], size: float, order: int) -> tuple[float, tuple[Array, Array, Array]]:
     """The rate a, 1/s, and s of ẋ = a x - s after a step, for the coordinates, their velocities and θh."""
+    rate, near, far = _weights(past, size, order)
     last = past[0]
     if order == 1:
-        return 1 / size, (last.place / size, last.velocity / size, last.held / size)
+        return rate, (last.place / size, last.velocity / size, last.held / size)
     before = past[1]
-    ratio = size / (last.time - before.time)
-    near, far = (1 + ratio) / size, ratio**2 / ((1 + ratio) * size)
-    return (1 + 2 * ratio) / ((1 + ratio) * size), (
+    return rate, (
         near * last.place - far * before.place,
         near * last.velocity - far * before.velocity,
         near * last.held - far * before.held,
     )
+
+
+def _weights(past: tuple[Known, ...], size: float, order: int) -> tuple[float, float, float]:
+    """a, b and c of ẋ = a x₊ - b x + c x₋, 1/s, after a step; c is 0 of first order."""
+    if order == 1:
+        return 1 / size, 1 / size, 0.0
+    ratio = size / (past[0].time - past[1].time)
+    return (1 + 2 * ratio) / ((1 + ratio) * size), (1 + ratio) / size, ratio**2 / ((1 + ratio) * size)
 
 
 def predicted(past: tuple[Known, ...], size: float) -> Array:

@@ -73,12 +73,16 @@ def command(
             rich_help_panel=NUMERICS,
         ),
     ] = True,
+    isothermal: Annotated[
+        bool, typer.Option("--isothermal", help="All films at the temperature of the supplied lubricant.")
+    ] = False,
     set_: Overrides = None,
     as_json: AsJson = False,
 ) -> None:
     """March a bearing in time: film, pressure, load, friction and flows as loads and speeds change."""
     spent = stopwatch()
     bearing = bearing_of(load_scene(scene, set_ or ()))
+    bearing = bearing.isothermal() if isothermal else bearing
     page, stored = out / "report.html", out / "series.h5"
     last, size = None if end is None else _time(end), _cells(cells)
     make_directory(out)

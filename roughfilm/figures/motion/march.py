@@ -111,6 +111,12 @@ def over_time(march: March) -> Figure:
     flows.set(ylabel="flow, mm²/s" if wide else "flow, ml/min")
     cavities.plot(time, 100 * march["cavitated_fraction"], color=COLOURS[2])
     cavities.set(ylabel="cavitated, %", ylim=(0, max(1.0, cavities.get_ylim()[1])))
+    if "temperature" in units:
+        warm = cavities.twinx()
+        warm.plot(time, march["temperature"], color=COLOURS[1])
+        warm.set_ylabel("temperature of the film, °C", color=COLOURS[1])
+        warm.grid(visible=False)
+        warm.spines["right"].set_visible(True)
     if "contact_load" in units:
         load.plot(time, 1e-3 * march["contact_load"], color="#888888", linewidth=0.8, label="asperities")
     if pivoted:

@@ -9,11 +9,15 @@ import roughfilm as rf
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.rom.bearing.flash import Spots, flash_temperature, flash_warnings, rise_of_spots, spots_of
+from roughfilm.rom.bearing.roughness import RoughSurface
 from roughfilm.rom.parts.solids import HeatConductor
 from roughfilm.rom.temperature.closed_forms.moving_sources import moving_circle, resting_circle
 
 STEEL = {"conductivity": "46 W/(m*K)", "density": "7850 kg/m^3", "heat_capacity": "460 J/(kg*K)"}
 SOLID = HeatConductor.model_validate(STEEL)
+STEP = 1e-6
+"""Spacing of the nodes of a contact, m."""
+
 SURFACE = {
     "kind": "gaussian",
     "size": ["0.2 mm", "0.2 mm"],
@@ -77,7 +81,7 @@ def test_equal_walls_at_rest_share_the_heat_and_a_conductor_takes_it_all():
     alone = resting_circle(radius=10e-6, flux=flux, conductivity=SOLID.conductivity)
     both = rise_of_spots(spots, friction=0.1, speed=slow, rough=SOLID, smooth=SOLID)
     assert both.mean == pytest.approx(alone.mean / 2, rel=1e-3)
-    assert both.high == pytest.approx(alone.greatest / 2, rel=1e-3)
+    assert both.high == pytest.approx(3 * math.pi / 8 * alone.greatest / 2, rel=1e-3)
     insulated = rise_of_spots(spots, friction=0.1, speed=slow, rough=conductor(1e-9), smooth=SOLID)
     assert insulated.mean == pytest.approx(alone.mean, rel=1e-3)
 
@@ -109,6 +113,36 @@ def test_the_range_is_that_of_small_and_large_spots():
     assert small.mean < flash.low < flash.mean < large.mean < flash.high
     assert flash.high == large.high
     assert flash.low == pytest.approx((2 * small.mean + large.mean) / 3)
+
+
+def of_nodes(across, along, speed):
+    """The rise at the middles of square nodes by a unit flux on each of them, K m²/W, from moving point sources."""
+    middles = (np.arange(8) + 0.5) / 8 * STEP - STEP / 2
+    total = np.zeros_like(along)
+    for x in middles:
+        for y in middles:
+            distance = np.hypot(along - x, across - y)
+            rate = speed * SOLID.heat_per_volume / (2 * SOLID.conductivity)
+            total += np.exp(-rate * (distance - (along - x))) / distance
+    return total * (STEP / 8) ** 2 / (2 * math.pi * SOLID.conductivity)
+
+
+@pytest.mark.parametrize("speed", [0.1, 2.0, 20.0])
+def test_lightly_touching_spots_are_as_hot_as_both_walls_solved_at_once(speed):
+    """The heat of each node in contact is divided so that both walls have one temperature there, also by the others."""
+    spectrum = {**SURFACE, "size": ["0.128 mm", "0.128 mm"], "points": [128, 128], "correlation_length": "8 um"}
+    heights = RoughSurface.model_validate({"kind": "surface", "surface": spectrum}).scaled_heights()
+    contact = Press(heights, (STEP, STEP), 115e9, hardness=4e9).at(1e7)
+    i, j = np.nonzero(contact.in_contact)
+    assert 10 < i.size < 200
+    along, across = ((one[:, None] - one) * STEP for one in (i, j))
+    along, across = ((one + 64e-6) % 128e-6 - 64e-6 for one in (along, across))  # the nearest of all periods
+    rough, smooth = of_nodes(across, along, 0.0), of_nodes(across, along, speed)
+    flux = 0.1 * contact.pressure[i, j] * speed
+    rise = rough @ np.linalg.solve(rough + smooth, smooth @ flux)
+    flash = rise_of_spots(spots_of(contact), friction=0.1, speed=speed, rough=SOLID, smooth=SOLID)
+    assert flash.mean == pytest.approx(rise.mean(), rel=0.1)
+    assert flash.low < rise.mean() < rise.max() < flash.high
 
 
 def test_the_model_reports_an_estimate_with_its_range(scene):

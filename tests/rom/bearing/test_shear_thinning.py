@@ -1,13 +1,16 @@
 """Bearings whose lubricant thins with shear: against films of constant viscosity, a power law, and a given film."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 
 import roughfilm as rf
+from roughfilm import rom
 from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.ladder.model import find, ladder, of_kind
 from roughfilm.rom.lubricants.shear_thinning import CarreauYasuda
 
 LAW = {"law": "carreau_yasuda", "index": 0.5, "critical_stress": "2 kPa"}
@@ -50,6 +53,27 @@ def test_an_index_of_one_gives_the_film_of_constant_viscosity_to_the_last_bit(
 def test_a_scene_of_a_newtonian_lubricant_is_refused() -> None:
     with pytest.raises(rf.InputError, match=r"lubricant.shear_thinning is missing"):
         rf.solve(scene(None, PAD), model="shear_thinning", resolution=CELLS)
+
+
+def test_models_of_newtonian_lubricants_say_what_they_leave_out() -> None:
+    for name in ("reynolds_cavitating", "infinitely_wide"):
+        model = find(of_kind(ladder(rom, kind="bearing"), "bearing"), "bearing", name)
+        assert "leaves out lubricant.shear_thinning" in model.applies(scene(LAW, PAD)).reason
+        assert "shear_thinning" not in model.applies(scene(None, PAD)).reason
+
+
+@pytest.mark.parametrize(
+    "calculate",
+    [
+        lambda one: rf.march(one),
+        lambda one: rf.dynamics(one, speeds=[4.0], loads=[1e6]),
+        lambda one: rf.stribeck(one, [1.0, 4.0], [1e6]),
+    ],
+    ids=["march", "dynamics", "stribeck"],
+)
+def test_calculations_of_newtonian_lubricants_refuse_others(calculate: Callable[[rf.Scene], object]) -> None:
+    with pytest.raises(rf.InputError, match=r"lubricant.shear_thinning: got 'carreau_yasuda'; .* takes Newtonian"):
+        calculate(scene(LAW, PIVOTED, load={"force": "300 N"}))
 
 
 def test_an_infinite_shear_viscosity_above_that_at_rest_is_refused() -> None:
@@ -105,11 +129,11 @@ def test_the_heat_balance_has_the_film_of_its_temperature() -> None:
         "heat_capacity": "2000 J/(kg*K)",
         "shear_thinning": {"law": "carreau_yasuda", "index": 0.5, "relaxation_time": "25 us"},
     }
-    cold = scene(None, PAD, lubricant=lubricant)
+    cold = scene(None, {key: one for key, one in PAD.items() if key != "width"}, lubricant=lubricant)
     found = rf.solve(cold, model="heat_balance", resolution=CELLS)
     assert isinstance(cold, Bearing)
     hot = cold.at_temperature(found["effective_temperature"].value + ZERO_CELSIUS)
     film = rf.solve(hot, model="shear_thinning", resolution=CELLS)
-    assert found["load"].value == pytest.approx(film["load"].value, rel=1e-6)
+    assert found["load_per_width"].value == pytest.approx(film["load_per_width"].value, rel=1e-6)
     newtonian = rf.solve(rf.replace(cold, "lubricant.shear_thinning.index", 1), model="heat_balance", resolution=CELLS)
     assert found["effective_temperature"].value < newtonian["effective_temperature"].value - 3

@@ -24,8 +24,11 @@ HEATED = [
     "lubricant.temperature=40 degC",
     "lubricant.density=870 kg/m^3",
     "lubricant.heat_capacity=2000 J/(kg*K)",
+    "lubricant.conductivity=0.13 W/(m*K)",
     'lubricant.thermoviscosity={"law": "exponential", "temperature_coefficient": "0.03 1/K"}',
 ]
+
+THINNING = ['lubricant.shear_thinning={"law": "carreau_yasuda", "index": 0.5, "relaxation_time": "25 us"}']
 
 ROUGH = [
     'roughness={"kind": "sinusoid", "amplitude": "2 um", "wavelength": "50 mm", "direction": "30 deg"}',
@@ -51,7 +54,10 @@ def test_the_lattice():
         "homogenized",
         "direct",
         "mixed",
+        "shear_thinning",
         "heat_balance",
+        "adiabatic",
+        "across",
     ]
     steps = {(a.name, b.name): effect for a in MODELS for b, effect in one_effect_away(a, MODELS)}
     assert steps == {
@@ -61,9 +67,12 @@ def test_the_lattice():
         ("infinitely_wide", "reynolds_cavitating"): Effect.SIDE_FLOW,
         ("reynolds_cavitating", "homogenized"): Effect.ROUGHNESS,
         ("homogenized", "direct"): Effect.FINITE_WAVES,
-        ("mixed", "heat_balance"): Effect.HEATING,
+        ("mixed", "shear_thinning"): Effect.SHEAR_THINNING,
+        ("shear_thinning", "heat_balance"): Effect.HEATING,
+        ("heat_balance", "adiabatic"): Effect.TEMPERATURE_FIELD,
+        ("adiabatic", "across"): Effect.TEMPERATURE_ACROSS,
     }
-    assert best(MODELS).name == "heat_balance"
+    assert best(MODELS).name == "across"
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
@@ -73,6 +82,8 @@ def test_contract(model, tips):
         scene = tips.scene(scene_entries(scene)["geometry"] | {"eccentricity": 0.95})
     if Effect.HEATING in model.keeps:
         scene = load_scene(SCENES / "journal.toml", HEATED)
+    elif Effect.SHEAR_THINNING in model.keeps:
+        scene = load_scene(SCENES / "journal.toml", THINNING)
     if Effect.INERTIA in model.keeps:
         scene = load_scene(SCENES / "wide_pad.toml")
     seen = []

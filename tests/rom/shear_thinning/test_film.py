@@ -19,7 +19,7 @@ from roughfilm.rom.cavitation.solve import Solution, on_grid
 from roughfilm.rom.lubricants.shear_thinning import CarreauYasuda, ReeEyring, ThinningLaw
 from roughfilm.rom.lubricants.viscosity import Barus, Roelands
 from roughfilm.rom.shear_thinning.closed_forms import eyring_flow, power_law_flow
-from roughfilm.rom.shear_thinning.film import pressure_gradient, thinned
+from roughfilm.rom.shear_thinning.film import pressure_gradient, thinned, thinned_profiles
 
 VISCOSITY, SPEED, LENGTH, FILM, STRESS = 0.05, 4.0, 0.02, 1e-5, 1e4
 EYRING = ReeEyring.model_validate({"law": "ree_eyring", "critical_stress": "10 kPa"})
@@ -159,3 +159,18 @@ def test_a_film_with_a_width_and_cavities_settles() -> None:
     assert cavity.sum() > 50
     expected = CARREAU.viscosity_at(SPEED / film.faces.thickness[cavity], VISCOSITY)
     np.testing.assert_allclose(own.shear[cavity], expected, rtol=1e-8)
+
+
+def test_profiles_of_one_viscosity_at_rest_are_those_of_the_film() -> None:
+    """Under pressure the profiles across have the integrals of the film's viscosities, for every law of pressure."""
+    points, weights = np.polynomial.legendre.leggauss(24)
+    points, weights = (1 + points) / 2, weights / 2
+    curve = EYRING.curve(VISCOSITY)
+    plain = wedge(piezoviscosity=Roelands.model_validate({"law": "roelands", "index": 0.6}))
+    film = on_grid(plain, grid(plain.shape, (24, 1)), start=None, sweeps=400, tolerance=1e-12)
+    expected = thinned(film, curve).viscosities
+    at_rest = np.full((*film.grid.shape, points.size), VISCOSITY)
+    found, _ = thinned_profiles(film, curve, at_rest, (points, weights))
+    np.testing.assert_allclose(1 / (weights / found).sum(axis=-1), expected.shear, rtol=1e-3)
+    newtonian = CarreauYasuda.model_validate({"law": "carreau_yasuda", "index": 1, "critical_stress": "1 Pa"})
+    assert (thinned_profiles(film, newtonian.curve(VISCOSITY), at_rest, (points, weights))[0] == VISCOSITY).all()

@@ -137,10 +137,14 @@ def test_a_viscosity_that_varies_across_is_sheared_by_one_stress() -> None:
     rate = EYRING_STRESS / at_rest * np.sinh(1.5)
     speed, q = FILM * float(weights @ rate), FILM**2 * float(weights @ (points * rate))
     driven = np.array([q - speed * FILM / 2]), np.zeros(1)
-    found = thinned_across(EYRING.curve(VISCOSITY), at_rest[None], (points, weights), np.full(1, FILM), speed, driven)[
-        0
-    ]
-    np.testing.assert_allclose(found, stress / rate, rtol=1e-8)
+    film = np.full(1, FILM)
+    found, relative = thinned_across(EYRING.curve(VISCOSITY), at_rest[None], (points, weights), film, speed, driven)
+    np.testing.assert_allclose(found[0], stress / rate, rtol=1e-8)
+    np.testing.assert_allclose(relative[0], [-1.5, 0, 0, 0], atol=1e-8)
+    again, _ = thinned_across(
+        EYRING.curve(VISCOSITY), at_rest[None], (points, weights), film, speed, driven, start=1.1 * relative
+    )
+    np.testing.assert_allclose(again, found, rtol=1e-8)
 
 
 def test_a_uniform_viscosity_across_is_that_of_the_film() -> None:
@@ -151,7 +155,7 @@ def test_a_uniform_viscosity_across_is_that_of_the_film() -> None:
     driven = flow(film, speed, along) - speed * FILM / 2, -(FILM**3) / (12 * film.flow) * across
     found = thinned_across(
         CARREAU.curve(VISCOSITY), np.full((1, 40), VISCOSITY), (points, weights), np.full(1, FILM), speed, driven
-    )[0]
+    )[0][0]
     zeroth = (weights / found).sum()
     assert 1 / zeroth == pytest.approx(film.shear[0], rel=1e-4)
     assert 2 * (weights * points / found).sum() / zeroth == pytest.approx(film.carried[0], rel=1e-4)

@@ -5,7 +5,9 @@ from functools import partial
 
 import numpy as np
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.field.mixing import MIXED, at_mixture, new_lubricant, returning, temperature_of
 from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
@@ -14,7 +16,10 @@ from roughfilm.rom.bearing.thermal.tables import Adiabatic, Conducting, GivenTem
 from roughfilm.rom.cavitation.evaluation.flows import node_balances
 from roughfilm.rom.cavitation.interpolation import interpolated
 from roughfilm.rom.cavitation.solve import Solution
-from roughfilm.rom.temperature.across import TemperatureAcross, temperature_across
+from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.shear_thinning.film import thinned_profiles
+from roughfilm.rom.temperature.across import MODES, TemperatureAcross, temperature_across
+from roughfilm.rom.temperature.basis import basis
 from roughfilm.rom.temperature.walls import (
     ConductingWall,
     FixedWall,
@@ -57,12 +62,13 @@ class BetweenWalls:
         new = new_lubricant(scene, solution, liquid.temperature)
         back, rubs = returning(scene, solution, new), rubbing(scene, solution, near)
         sliding, fixed = walls_of(scene, liquid.temperature)
+        sheared = sheared_liquid(scene, solution)
         refined = near is not None and near.temperature.shape != solution.grid.shape
 
         def temperatures(inlet: float | None, known: TemperatureAcross | None) -> TemperatureAcross:
             return temperature_across(
                 solution,
-                liquid,
+                sheared,
                 sliding_wall=sliding,
                 fixed_wall=fixed,
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
@@ -107,6 +113,26 @@ class BetweenWalls:
             start=found,
             settled=not refined and (mixture is None or abs(mixture.error) <= MIXED),
         )
+
+
+def sheared_liquid(scene: Bearing, solution: Solution) -> Liquid:
+    """The lubricant with the viscosities of its shear at the points across a film, for the temperatures there.
+
+    The flow of the film stays the same; its profile is that of the law at the viscosities at rest of the temperatures.
+    """
+    liquid, law = scene.lubricant.liquid, scene.lubricant.shear_thinning
+    if law is None:
+        return liquid
+    curve, gap, parts = law.curve(scene.lubricant.viscosity), mean_gap(solution), basis(MODES)
+    stress: Array | None = None
+
+    def viscosity(temperature: Array) -> tuple[Array, Array]:
+        nonlocal stress
+        eta, slope = liquid.viscosity(temperature)
+        found, stress = thinned_profiles(solution, curve, eta, (parts.points, parts.weights), gap=gap, start=stress)
+        return found, slope * found / eta
+
+    return replace(liquid, viscosity=viscosity)
 
 
 def _start(near: HeatedFilm | None, solution: Solution) -> TemperatureAcross | None:

@@ -1,6 +1,6 @@
 """The mean temperatures of a film whose walls take no heat."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -14,7 +14,6 @@ from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
-from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.shear_thinning.film import thinned
 from roughfilm.rom.temperature.mean import MeanTemperature, mean_temperature
 
@@ -41,16 +40,17 @@ class AdiabaticWalls:
         scene, liquid = self.scene, self.scene.lubricant.liquid
         new = new_lubricant(scene, solution, liquid.temperature)
         cooled, back = replaced(scene, solution, liquid), returning(scene, solution, new)
-        rubs, effective = rubbing(scene, solution, near), thinned_liquid(scene, solution, near)
+        rubs, at_rest = rubbing(scene, solution, near), viscosity_at_rest(scene, solution, near)
 
         def temperatures(inlet: float | None, known: MeanTemperature | None) -> MeanTemperature:
             return mean_temperature(
                 solution,
-                effective,
+                liquid,
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
                 exchange=cooled,
                 wall=new,
                 added_power=0.0 if rubs is None else rubs.power,
+                at_rest=at_rest,
                 start=start_of(near, solution) if known is None else known.temperature,
             )
 
@@ -82,23 +82,16 @@ class AdiabaticWalls:
         )
 
 
-def thinned_liquid(scene: Bearing, solution: Solution, near: HeatedFilm | None) -> Liquid:
-    """The lubricant with the viscosity of its shear, as it changes with the temperature at each node of a film.
+def viscosity_at_rest(scene: Bearing, solution: Solution, near: HeatedFilm | None) -> Array | None:
+    """The viscosity at rest at the temperatures of ``near``, with which a film that thins with shear was solved.
 
-    A lubricant that thins with shear has the viscosity of the film over that at rest at the temperatures of ``near``.
+    None of a lubricant that does not thin, and of a film with the viscosity of the scene.
     """
-    liquid, own = scene.lubricant.liquid, solution.problem.at_nodes
-    if scene.lubricant.shear_thinning is None or own is None:
-        return liquid
+    liquid = scene.lubricant.liquid
+    if scene.lubricant.shear_thinning is None or solution.problem.at_nodes is None:
+        return None
     known = start_of(near, solution)
-    at_rest = liquid.viscosity(np.full(solution.grid.shape, liquid.temperature) if known is None else known)[0]
-    ratio = own.shear / at_rest
-
-    def viscosity(temperature: Array) -> tuple[Array, Array]:
-        eta, slope = liquid.viscosity(temperature)
-        return ratio * eta, ratio * slope
-
-    return replace(liquid, viscosity=viscosity)
+    return liquid.viscosity(np.full(solution.grid.shape, liquid.temperature) if known is None else known)[0]
 
 
 def with_thinning(

@@ -14,7 +14,7 @@ from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, balanced
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.equilibrium import equilibrium
 from roughfilm.rom.bearing.mixed.film import MixedFilm
-from roughfilm.rom.bearing.mixed.search import SeparationSearch
+from roughfilm.rom.bearing.mixed.search.separation import SeparationSearch
 from roughfilm.rom.bearing.mixed.stribeck import stribeck
 from roughfilm.rom.ladder.request import Request
 

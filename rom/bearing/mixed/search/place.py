@@ -17,8 +17,8 @@ from roughfilm.rom.bearing.free.solve import ACROSS, COARSE_CELLS, approach, pla
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.contact_load import asperity_load
 from roughfilm.rom.bearing.mixed.film import MixedState, mixed_problem, mixed_state
-from roughfilm.rom.bearing.mixed.lift_off import lift_off_speed
-from roughfilm.rom.bearing.mixed.search import Known, Slopes
+from roughfilm.rom.bearing.mixed.search.lift_off import lift_off_speed
+from roughfilm.rom.bearing.mixed.search.separation import Known, Slopes
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
 from roughfilm.rom.cavitation.motion.coupled import Instant
 from roughfilm.rom.cavitation.problem import Problem

@@ -11,7 +11,7 @@ import scipy
 from roughfilm.rom.bearing.equilibrium.balance import STEEPNESS, FilmsAtSpeed, balanced, robustly_balanced
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
-from roughfilm.rom.bearing.mixed.lift_off import lift_off_speed
+from roughfilm.rom.bearing.mixed.search.lift_off import lift_off_speed
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.network import State
 
@@ -78,7 +78,7 @@ class Search(Protocol):
         ...
 
     def lift_off(self, pressure: float, near: float) -> float:
-        """The lift-off speed, m/s, from a guess; see :func:`roughfilm.rom.bearing.mixed.lift_off.lift_off_speed`."""
+        """The lift-off speed, m/s, from a guess, as of :mod:`roughfilm.rom.bearing.mixed.search.lift_off`."""
         ...
 
     def coarser(self) -> Self:

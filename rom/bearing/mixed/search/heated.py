@@ -7,7 +7,7 @@ from typing import Self
 
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedState
-from roughfilm.rom.bearing.mixed.search import Known, Search, Slopes
+from roughfilm.rom.bearing.mixed.search.separation import Known, Search, Slopes
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.balanced import balanced

@@ -1,0 +1,129 @@
+"""The temperature of a film in a march: it follows the balance of its heat with the time constant of the walls."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.march.course import Duty, started
+from roughfilm.rom.bearing.march.numbers import Observer
+from roughfilm.rom.bearing.quantities import boundary_flows
+from roughfilm.rom.bearing.supply.quantities import supply_values
+from roughfilm.rom.bearing.thermal.balanced import balanced
+from roughfilm.rom.bearing.thermal.exchange import coldest, exchange_of, temperatures
+from roughfilm.rom.cavitation.motion.coupled import Instant
+from roughfilm.rom.cavitation.motion.film import MovingFilm
+from roughfilm.rom.cavitation.motion.march import Moving
+from roughfilm.rom.lubricants.liquid import Liquid
+
+FIRST_TOLERANCE = 1e-3
+"""Error of the temperature at which a march without time constant begins, K."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeatedMarch:
+    """The temperature of a film that follows the balance of its heat, τ dT/dt = T_eq - T.
+
+    T_eq is the temperature that friction, squeeze and flows of the instant bring about
+    (:func:`roughfilm.rom.bearing.thermal.exchange.temperatures`). A film that takes up or gives off lubricant, as its
+    walls move, takes it from the supply, or displaces lubricant that came from there. The heat that the lubricant in
+    the film stores is left out against that of the walls. Without a time constant T is T_eq at all times; with one it
+    stays while nothing takes the heat away, as in the first instant of a shaft in the middle of its bore.
+
+    Attributes
+    ----------
+    duty : what moves the bearing.
+    observer : the numbers of its film.
+    """
+
+    duty: Duty
+    observer: Observer
+
+    @property
+    def time_constant(self) -> float:
+        """The time constant τ, s."""
+        heat = self.duty.scene.heat
+        return (heat.time_constant if heat is not None else None) or 0.0
+
+    @property
+    def liquid(self) -> Liquid:
+        """The lubricant over temperature."""
+        return self.duty.scene.lubricant.liquid
+
+    def film(self, film: MovingFilm, temperature: float) -> MovingFilm:
+        """The film whose lubricant has the viscosity at a temperature, K."""
+        return film.with_viscosity(self.duty.scene.lubricant.at(temperature).viscosity)
+
+    def whole(self, temperature: float, *, turned: bool) -> FreeFilm:
+        """The film over the whole width, and its part that is solved, at a temperature, K."""
+        free = self.observer.film.reversed if turned else self.observer.film
+        return replace(free, whole=self.film(free.whole, temperature), solved=self.film(free.solved, temperature))
+
+    def balanced(self, time: float, instant: Instant, velocity: Array, temperature: float, *, turned: bool) -> float:
+        """T_eq, K, of a film whose lubricant has a temperature, K."""
+        seen = replace(self.observer, film=self.observer.film.reversed) if turned else self.observer
+        scene, film = self.duty.scene, self.whole(temperature, turned=turned)
+        moved = replace(film.whole.problem, speed=abs(self.duty.speed(time)))
+        film = replace(film, whole=replace(film.whole, problem=moved))
+        solution = film.solution(instant)
+        flows, wide = boundary_flows(solution), scene.wide
+        per, unit = ("_per_width", "m^2/s") if wide else ("", "m^3/s")
+        amounts = {f"inlet_flow{per}": flows.inlet, f"outlet_flow{per}": flows.outlet}
+        amounts |= {} if wide else {"side_leakage_low": flows.low, "side_leakage_high": flows.high}
+        quantities = {name: Quantity(value=one, unit=unit) for name, one in amounts.items() if one is not None}
+        supplies = supply_values(scene, solution)
+        quantities |= {name: Quantity(value=value, unit=unit) for name, (value, unit) in supplies.items()}
+        given = supplies[f"supply_flow{per}"][0] if supplies else 0.0
+        displaced = (flows.outlet or 0.0) + flows.low + flows.high - (flows.inlet or 0.0) - given
+        quantities[f"displaced_flow{per}"] = Quantity(value=displaced, unit=unit)
+        power = seen.power(time, instant, velocity, temperature)
+        quantities[f"power_loss{per}"] = Quantity(value=power, unit="W/m" if wide else "W")
+        exchange = exchange_of(scene, solution, quantities, self.liquid.temperature)
+        if not (exchange.flows or exchange.conductance) and exchange.power > 0:
+            if self.time_constant:
+                return temperature
+            raise InputError(
+                f"heat.time_constant: is missing, and at the time {time:.6g} s no lubricant flows through the film and "
+                "takes its heat away; give it, or a start away from the middle, body.start.eccentricity"
+            )
+        return temperatures(exchange, self.liquid, temperature).effective
+
+    def slope(self, balanced: float, temperature: float) -> float:
+        """About dT_eq/dT where the film is at a temperature, K: that of a rise proportional to the viscosity."""
+        rise = balanced - self.liquid.temperature
+        viscosity, fall = (float(one[0]) for one in self.liquid.viscosity(np.array([temperature])))
+        return min(rise * fall / viscosity, 0.0)
+
+    def sensitivity(self, temperature: float) -> float:
+        """|d ln η/dT| at a temperature, K."""
+        viscosity, fall = (float(one[0]) for one in self.liquid.viscosity(np.array([temperature])))
+        return abs(fall / viscosity)
+
+    def started(self, *, tolerance: float) -> Moving:
+        """The film at the first time: at the given or the supply temperature, or without time constant at T_eq.
+
+        Raises
+        ------
+        InputError
+            If there is no equilibrium with the first load, or the heat is not balanced.
+        """
+        start, supplied = self.duty.body.start, self.liquid.temperature
+        given = supplied if start is None or start.temperature is None else start.temperature
+        last: list[Moving] = []
+
+        def equilibrium(temperature: float) -> float:
+            moving = started(self.duty, self.whole(temperature, turned=False), tolerance=tolerance)
+            now = replace(moving.now, temperature=temperature)
+            found = self.balanced(now.time, moving.instant, now.velocity, temperature, turned=moving.turned)
+            last[:] = [replace(moving, past=(now,), solved_at=temperature, balanced=found)]
+            return found
+
+        if self.time_constant:
+            equilibrium(given)
+        else:
+            lowest = coldest(self.duty.scene, supplied)
+            balanced(equilibrium, given, coldest=lowest, tolerance=FIRST_TOLERANCE)
+        return last[0]

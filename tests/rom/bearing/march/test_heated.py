@@ -1,0 +1,125 @@
+"""Marches of films whose temperature follows the balance of their heat."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.ladder import find
+from roughfilm.rom.bearing.march.solve import march_bearing
+from roughfilm.rom.ladder.request import Request
+from roughfilm.rom.ladder.scene import read_scene
+
+COLD, BETA, TAU, CELLS = 40.0, 0.035, 0.01, (16, 8)
+OIL = {
+    "viscosity": "0.03 Pa*s",
+    "density": "870 kg/m^3",
+    "heat_capacity": "2000 J/(kg*K)",
+    "temperature": f"{COLD} degC",
+    "cavitation_pressure": "-0.1 MPa",
+    "thermoviscosity": {"law": "exponential", "temperature_coefficient": f"{BETA} 1/K"},
+}
+STIFF = {"thermoviscosity": {"law": "exponential", "temperature_coefficient": "0 1/K"}}
+BORE = {"shape": "lobes", "radius": "25 mm", "clearance": "30 um", "width": "40 mm"}
+PLACED = BORE | {"eccentricity": [0.1, -0.1]}
+THROUGH = {"sides": {"low": "1 MPa"}}
+LOADED = {
+    "geometry": BORE,
+    "load": {"force": "2 kN"},
+    "boundary": {"sides": {"low": "0.5 MPa", "high": "0.5 MPa"}},
+}
+SLOW = {"time_constant": f"{TAU} s"}
+
+
+def scene_of(geometry, *, oil=(), speed="5 m/s", **tables):
+    tables = {"lubricant": OIL | dict(oil), "motion": {"speed": speed}} | tables
+    return read_scene({"name": "heated", "kind": "bearing", "geometry": geometry, **tables})
+
+
+def marched(geometry, *, end, steps=None, uncertain=False, **options):
+    return march_bearing(scene_of(geometry, **options), end=end, steps=steps, cells=CELLS, uncertain=uncertain)
+
+
+def test_a_start_from_cold_with_constant_friction_is_an_exponential():
+    """With a viscosity that does not change T = T_eq - (T_eq - T0) exp(-t/τ); steps are of second order."""
+    errors = []
+    for steps in (20, 40, 80):
+        march = marched(PLACED, end=2 * TAU, steps=steps, oil=STIFF, heat=SLOW, boundary=THROUGH)
+        final = march["balanced_temperature"]
+        assert np.ptp(final) < 1e-6 * (final[0] - COLD)
+        exact = final[0] - (final[0] - COLD) * np.exp(-march.time / TAU)
+        assert final[0] > COLD + 5
+        errors.append(np.abs(march["temperature"] - exact).max() / (final[0] - COLD))
+    assert errors[-1] < 1e-3
+    assert math.log2(errors[0] / errors[1]) > 1.7
+    assert math.log2(errors[1] / errors[2]) > 1.7
+
+
+def test_a_given_film_warms_as_its_equation_says():
+    """A concentric shaft gives Petroff's friction P to the surroundings: τ dT/dt = T0 + P(T)/(α A) - T."""
+    heat = SLOW | {"heat_transfer": "20 W/(m^2*K)", "area": "0.1 m^2", "surroundings": f"{COLD} degC"}
+    still = {"sides": {"low": "0.1 MPa", "high": "0.1 MPa"}}
+    rise = 2 * math.pi * 0.03 * 5.0**2 * 25e-3 * 40e-3 / 30e-6 / 2.0
+
+    def rate(warmed):
+        return (rise * math.exp(-BETA * warmed) - warmed) / TAU
+
+    count = 4000
+    size, warmed, exact = 2 * TAU / count, 0.0, [0.0]
+    for _ in range(count):
+        k1 = rate(warmed)
+        k2 = rate(warmed + size / 2 * k1)
+        k3 = rate(warmed + size / 2 * k2)
+        warmed += size / 6 * (k1 + 2 * k2 + 2 * k3 + rate(warmed + size * k3))
+        exact.append(warmed)
+    times = np.linspace(0, 2 * TAU, count + 1)
+    errors = [
+        np.abs(march["temperature"] - COLD - np.interp(march.time, times, exact)).max()
+        for march in (
+            marched(BORE | {"eccentricity": [0.0, 0.0]}, end=2 * TAU, steps=steps, heat=heat, boundary=still)
+            for steps in (20, 80)
+        )
+    ]
+    assert errors[-1] < 2e-3 * warmed
+    assert math.log(errors[0] / errors[1], 4) > 1.7
+
+
+@pytest.mark.parametrize("heat", [SLOW, {"carried_over": 0.7}], ids=["walls", "at once"])
+def test_a_march_ends_at_the_film_of_heat_balance(heat):
+    near = {"eccentricity": [0.34, -0.07]} | ({"temperature": "60 degC"} if heat is SLOW else {})
+    options = LOADED | {"heat": heat, "body": {"start": near}}
+    march = marched(**options, end=0.12)
+    steady = find("bearing", "heat_balance").solve(scene_of(**options), Request(resolution=CELLS[0]))
+    rise = steady["effective_temperature"].value - COLD
+    assert march["temperature"][-1] - COLD == pytest.approx(rise, rel=2e-3)
+    assert march["balanced_temperature"][-1] == pytest.approx(march["temperature"][-1], abs=1e-2 * rise)
+    assert march["film_min"][-1] == pytest.approx(steady["film_min"].value, rel=2e-3)
+    assert march["power_loss"][-1] == pytest.approx(steady["power_loss"].value, rel=2e-3)
+    assert march.quantities["temperature_max"].value >= march.quantities["temperature_mean"].value
+
+
+def test_a_viscosity_that_does_not_change_leaves_the_path():
+    """The path and all other numbers are those of the isothermal march to the last bit."""
+    options = LOADED | {"oil": STIFF, "body": {"start": {"eccentricity": [0.1, 0]}}}
+    hot = marched(**options, end=0.02, steps=30, heat=SLOW)
+    cold = march_bearing(scene_of(**options).isothermal(), end=0.02, steps=30, cells=CELLS, uncertain=False)
+    for name in cold.series.units.keys() - {"error"}:
+        assert (hot[name] == cold[name]).all(), name
+
+
+def test_it_begins_at_a_given_temperature_and_goes_on_from_its_file(tmp_path: Path):
+    warm = {"start": {"eccentricity": [0.2, -0.3], "temperature": "70 degC"}}
+    scene = scene_of(**LOADED, heat=SLOW, body=warm)
+    whole = march_bearing(scene, end=0.01, cells=CELLS, path=tmp_path / "series.h5")
+    again = march_bearing(scene, end=0.01, cells=CELLS, path=tmp_path / "series.h5")
+    assert whole["temperature"][0] == pytest.approx(70)
+    assert (again["temperature"] == whole["temperature"]).all()
+    assert again.series.known == len(again.time)
+    assert whole.quantities["temperature_mean"].uncertainty > 0
+
+
+def test_a_first_temperature_needs_a_time_constant():
+    with pytest.raises(InputError, match=r"body.start.temperature: .*heat.time_constant"):
+        marched(**LOADED, body={"start": {"temperature": "70 degC"}}, end=0.01)
