@@ -108,7 +108,7 @@ def test_the_words_name_only_effects_that_the_scene_has():
     ("speed", "within", "enough"),
     [
         (0.2, 0.05, {"reynolds", "reynolds_incompressible", "reynolds_cavitating"}),
-        (2.0, 0.05, {"heat_balance"}),
+        (2.0, 0.05, {"heat_balance", "adiabatic"}),
         (10.0, 0.02, {"adiabatic", "across"}),
     ],
 )
