@@ -1,10 +1,11 @@
 """The effects that models of a bearing leave out and the error laws do not count.
 
-These are heating and shear thinning, and inertia or, of models with inertia, cavitation and slope.
+These are heating, shear thinning, the length of ridges, and inertia or, of models with it, cavitation and slope.
 """
 
 from roughfilm.rom.bearing.effects.inertia import inertia_obstacle
 from roughfilm.rom.bearing.effects.viscosity import viscosity_omitted
+from roughfilm.rom.bearing.effects.waves import waves_omitted
 from roughfilm.rom.bearing.effects.wide_pad import wide_pad
 from roughfilm.rom.bearing.equilibrium.expected import expected_film, expected_scene
 from roughfilm.rom.bearing.inertia import inertia
@@ -49,23 +50,24 @@ def omission(scene: Bearing, model: Model[Bearing], quantity: str) -> Omission |
     """The relative change of a quantity by the effects that a model leaves out and the error laws do not count.
 
     Those of models with a uniform viscosity are heating and shear thinning
-    (:func:`roughfilm.rom.bearing.effects.viscosity.viscosity_omitted`), of models without inertia inertia, of models
-    that resolve the flow across the film cavitation, of ``film`` slope, and of ``film_slope`` its higher orders, which
-    are taken to be at most the second one. None where they cannot be estimated or are below ``SMALLEST_PART``.
+    (:mod:`roughfilm.rom.bearing.effects.viscosity`), of models with these effects the length of ridges
+    (:mod:`roughfilm.rom.bearing.effects.waves`), of models without inertia inertia, of models that resolve the flow
+    across the film cavitation, of ``film`` slope, and of ``film_slope`` its higher orders, which are taken to be at
+    most the second one. None where they cannot be estimated or are below ``SMALLEST_PART``.
     """
-    viscosity = viscosity_omitted(scene, model, quantity)
+    measured = [one for of in (viscosity_omitted, waves_omitted) if (one := of(scene, model, quantity)) is not None]
     inertia = None if Effect.INERTIA in model.keeps else inertia_omitted(scene, quantity)
-    if viscosity is None and not model.keeps & {Effect.INERTIA, Effect.SLOPE}:
+    if not measured and not model.keeps & {Effect.INERTIA, Effect.SLOPE}:
         return inertia
     others = [] if not model.keeps & {Effect.INERTIA, Effect.SLOPE} else _of_pad(scene, model, quantity)
     parts = [one for one in (inertia, *others) if one is not None and one.part > SMALLEST_PART]
-    parts = parts if viscosity is None else [viscosity, *parts]
+    parts = [*measured, *parts]
     if not parts:
         return None
     return Omission(
         part=sum(one.part for one in parts),
         reason="; ".join(one.reason for one in parts),
-        source="" if viscosity is None else viscosity.source,
+        source=measured[0].source if measured else "",
     )
 
 
