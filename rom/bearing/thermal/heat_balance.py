@@ -200,7 +200,14 @@ def solve_heat_balance(solver: Model[Bearing], scene: Bearing, request: CheckedR
         wall_s=time.perf_counter() - wall,
         details={**result.numerics.details, "heat_balance": error, "heated_films": float(films)},
     )
-    return replace(result, numerics=numerics, provenance={**result.provenance, "scene": scene_entries(scene)})
+    temperature = _values(result)[EFFECTIVE] + ZERO_CELSIUS
+    beyond = scene.lubricant.temperature_warnings(temperature, temperature)
+    return replace(
+        result,
+        numerics=numerics,
+        provenance={**result.provenance, "scene": scene_entries(scene)},
+        warnings=tuple(dict.fromkeys([*result.warnings, *beyond])),
+    )
 
 
 def _within(progress: Progress, share: float, fraction: float, words: str) -> None:

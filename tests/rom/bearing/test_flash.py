@@ -21,7 +21,7 @@ STEP = 1e-6
 SURFACE = {
     "kind": "gaussian",
     "size": ["0.2 mm", "0.2 mm"],
-    "points": [64, 64],
+    "points": [32, 32],
     "seed": 3,
     "rms_height": "0.5 um",
     "correlation_length": "20 um",

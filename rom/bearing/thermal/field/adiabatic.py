@@ -9,7 +9,14 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm, hottest, start_of
-from roughfilm.rom.bearing.thermal.field.mixing import MIXED, at_mixture, new_lubricant, replaced, returning
+from roughfilm.rom.bearing.thermal.field.mixing import (
+    COARSE_NODES,
+    MIXED,
+    at_mixture,
+    new_lubricant,
+    replaced,
+    returning,
+)
 from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.cavitation.fluid import Viscosities
@@ -40,6 +47,7 @@ class AdiabaticWalls:
         scene, liquid = self.scene, self.scene.lubricant.liquid
         new = new_lubricant(scene, solution, liquid.temperature)
         cooled, back = replaced(scene, solution, liquid), returning(scene, solution, new)
+        same = near is not None and near.temperature.shape == solution.grid.shape
         rubs, at_rest = rubbing(scene, solution, near), viscosity_at_rest(scene, solution, near)
 
         def temperatures(inlet: float | None, known: MeanTemperature | None) -> MeanTemperature:
@@ -61,7 +69,7 @@ class AdiabaticWalls:
                 temperatures,
                 lambda one: back.mixture(liquid, one.temperature),
                 back.first if near is None or near.inlet is None else near.inlet,
-                solution.state.pressure.size,
+                once=same and solution.state.pressure.size > COARSE_NODES,
             )
         viscosities, stress = with_thinning(scene, solution, found, near)
         generated = float(found.dissipation.sum())

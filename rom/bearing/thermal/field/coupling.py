@@ -22,11 +22,17 @@ LARGEST_OVER_MEAN = 50.0
 Slopes of the temperature are limited at extrema and fronts, where a node may vary by up to 1e-3 between iterations.
 """
 
+ACCEPTED, STALLED_FILMS, FALL = 1e-3, 6, 0.5
+"""Difference that is accepted, and stated, if in so many films it has not fallen to this part of the least before."""
+
 MAX_FILMS = 60
 """Largest number of films in one iteration; three to eight are usual."""
 
 REMEMBERED = 3
 """Number of earlier iterations from which the next viscosities are extrapolated."""
+
+SAMPLES = 64
+"""Number of nodes along each direction at least that count in the least squares of Anderson's method."""
 
 SINGULAR = 1e-12
 """Smallest eigenvalue over the largest one of the normal equations of Anderson's method."""
@@ -136,7 +142,8 @@ def coupled(
         hottest.append(float(heated.temperature.max()))
         if not hottest[-1] <= HOTTEST:
             raise ConvergenceError(_runaway(hottest), outcome=Outcome.DIVERGED, iterations=len(changes))
-        if changes[-1] <= tolerance and largest <= LARGEST_OVER_MEAN * tolerance:
+        small = changes[-1] <= tolerance and largest <= LARGEST_OVER_MEAN * tolerance
+        if small or _stalls(changes):
             if heated.settled:
                 return Coupled(film=film, heated=heated, changes=tuple(changes), largest=largest)
         else:
@@ -148,6 +155,13 @@ def coupled(
         outcome=Outcome.STALLED,
         iterations=MAX_FILMS,
     )
+
+
+def _stalls(changes: Sequence[float]) -> bool:
+    """Whether differences are small and no longer fall, as where slopes of the temperature are limited."""
+    if len(changes) <= STALLED_FILMS or changes[-1] > ACCEPTED:
+        return False
+    return min(changes[-STALLED_FILMS:]) > FALL * min(changes[:-STALLED_FILMS])
 
 
 def contraction(changes: Sequence[float]) -> float:
@@ -179,13 +193,14 @@ class Memory:
         rest = image - point
         if len(self.points) == 1:
             return image
-        earlier = list(zip(self.points[:-1], self.images[:-1], strict=True))
-        differences = np.stack([rest - (other - one) for one, other in earlier])
-        weighted = differences * weights
+        some = tuple(slice(None, None, max(1, count // SAMPLES)) for count in weights.shape)
+        rests = [(other - one)[:, *some] for one, other in zip(self.points, self.images, strict=True)]
+        differences = np.stack([rests[-1] - one for one in rests[:-1]])
+        weighted = differences * weights[some]
         normal = np.tensordot(weighted, differences, axes=((1, 2, 3), (1, 2, 3)))
-        wanted = np.tensordot(weighted, rest, axes=((1, 2, 3), (0, 1, 2)))
+        wanted = np.tensordot(weighted, rests[-1], axes=((1, 2, 3), (0, 1, 2)))
         shares = np.linalg.lstsq(normal, wanted, rcond=SINGULAR)[0]
-        correction = np.tensordot(shares, np.stack([image - other for _, other in earlier]), axes=1)
+        correction = sum(share * (image - other) for share, other in zip(shares, self.images[:-1], strict=True))
         return image if _size(correction) > _size(rest) else np.asarray(image - correction)
 
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.grid import Grid
-from roughfilm.rom.cavitation.interpolation import interpolated
 from roughfilm.rom.cavitation.solve import Solution
 
 SAME = 1e-4
@@ -101,4 +101,6 @@ def start_of(near: HeatedFilm | None, solution: Solution) -> Array | None:
         return None
     if near.temperature.shape == solution.grid.shape:
         return near.temperature
-    return interpolated((near.temperature,), near.grid, solution.grid, solution.problem.shape.joined)[0]
+    x, y = np.meshgrid(solution.grid.x, solution.grid.y, indexing="ij")
+    found = between_nodes(near.temperature, near.grid, solution.problem.shape.joined, x.ravel(), y.ravel())
+    return found.reshape(solution.grid.shape)

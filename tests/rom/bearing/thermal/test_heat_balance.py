@@ -246,6 +246,14 @@ def test_thermal_runaway_is_one_line():
         solved(WEDGE, oil=oil)
 
 
+def test_a_temperature_outside_of_the_range_of_its_law_has_a_warning():
+    """The range of the law is that about the supply temperature, also for a film that is hot."""
+    hot = solved(WEDGE | {"film": "5 um", "rise": "5 um"}, speed="20 m/s")
+    assert hot["effective_temperature"].value > COLD + 30
+    assert [one for one in hot.warnings if one.startswith("temperature: ") and "from 10 °C to 70 °C" in one]
+    assert not [one for one in solved(WEDGE).warnings if one.startswith("temperature: ")]
+
+
 def test_heat_that_nothing_takes_away_is_refused():
     still = {"sides": {"low": "0.1 MPa", "high": "0.1 MPa"}}
     with pytest.raises(InputError, match=r"^heat: no lubricant flows .* heat_transfer and area[^\n]*$"):
@@ -267,6 +275,21 @@ def test_heat_that_nothing_takes_away_is_refused():
 def test_incomplete_heat_transfer_is_refused(heat, geometry, match):
     with pytest.raises(InputError, match=match):
         solved(geometry, heat=heat)
+
+
+@pytest.mark.parametrize(
+    ("tables", "place"),
+    [
+        ({"supply": [RECESS | {"temperature": "50 degC"}]}, "supply.0"),
+        ({"boundary": {"inlet": {"temperature": "50 degC"}}}, "boundary.inlet"),
+    ],
+)
+def test_entering_lubricant_has_a_temperature_only_with_a_law(tables, place):
+    cold = {name: value for name, value in OIL.items() if name != "thermoviscosity"}
+    entries = {"name": "cold", "kind": "bearing", "geometry": WEDGE, "motion": {"speed": "1 m/s"}} | tables
+    with pytest.raises(InputError, match=rf"{place}.temperature: got one without lubricant.thermoviscosity"):
+        read_scene(entries | {"lubricant": cold})
+    assert read_scene(entries | {"lubricant": OIL}).isothermal().lubricant.thermoviscosity is None
 
 
 def test_it_applies_to_lubricants_with_temperature_alone():
