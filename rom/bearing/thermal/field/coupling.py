@@ -47,6 +47,13 @@ RUNAWAY = "lower the speed, the load or the viscosity, or cool the film by more 
 """Remedy of a thermal runaway."""
 
 
+SOFTENING = np.array([2.0, 2.0, 0.0])[:, None, None]
+"""Steps of ln η_p, ln η_s and s by which a film is made less viscous if it has no temperatures."""
+
+SOFTER_FILMS = 6
+"""Largest number of these steps."""
+
+
 class Heated(Protocol):
     """The temperatures of a film, as the energy equation gives them for its flows."""
 
@@ -135,7 +142,7 @@ def coupled(
     Source: Anderson 1965, doi:10.1145/321296.321305; Walker and Ni 2011, doi:10.1137/10078356X.
     """
     memory, changes, hottest = Memory(), [], []
-    heated = heating(film.solution, near)
+    film, heated = _with_temperatures(film, again, heating, near)
     for _ in range(MAX_FILMS):
         used, following = own_logarithms(film.solution), logarithms(heated.viscosities)
         areas, rest = film.solution.grid.areas, following - used
@@ -189,6 +196,25 @@ def _stepped(
         if float(temperatures.temperature.max()) <= HOTTEST:
             return found, temperatures
     raise _runaway([*hottest, float(temperatures.temperature.max())])
+
+
+def _with_temperatures(
+    film: FilmT, again: Callable[[FilmT, Array], FilmT], heating: Heating[HeatedT], near: HeatedT | None
+) -> tuple[FilmT, HeatedT]:
+    """The first film and its temperatures, of less viscosity where too little lubricant flows for any temperature.
+
+    The flow that the pressure of a supply or a side drives grows as the viscosity falls, so that it may carry the heat
+    of a warm film where it does not carry that of a cold one.
+    """
+    first = None
+    for _ in range(SOFTER_FILMS + 1):
+        try:
+            return film, heating(film.solution, near)
+        except ConvergenceError as error:
+            first = first or error
+            film = again(film, own_logarithms(film.solution) - SOFTENING)
+    assert first is not None
+    raise first
 
 
 def _stalls(changes: Sequence[float]) -> bool:
