@@ -7,7 +7,7 @@ from typing import Any
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.march.solve import ERROR
 from scripts.studies.coverage.judge import UNCERTAINTY, Finding
-from scripts.studies.motion.random_scenes import drawn, drawn_in_time, drawn_with_heat
+from scripts.studies.motion.random_scenes import GIVEN, drawn, drawn_in_time, drawn_with_heat
 from scripts.studies.motion.solving import (
     Stated,
     Truth,
@@ -121,7 +121,8 @@ def judged(kind: str, seed: int, command: str, stated: Stated, truth: Truth) -> 
     Each number counts once: what the scene prescribes, multiples of the friction and values per width are left out.
     """
     found = []
-    left_out = PRESCRIBED | (MULTIPLES if stated.values.keys() & {"friction", "friction_mean"} else frozenset())
+    multiples = MULTIPLES if stated.values.keys() & {"friction", "friction_mean"} else frozenset()
+    left_out = multiples if kind in GIVEN else PRESCRIBED | multiples
     for name in sorted((stated.uncertainty.keys() & truth.values.keys()) - left_out):
         if name.endswith("_per_width"):
             continue

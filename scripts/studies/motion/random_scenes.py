@@ -328,9 +328,8 @@ KINDS: Mapping[str, Callable[[Generator], Entries]] = {
 IN_TIME = ("journal", "arc", "lobes", "pad", "sector")
 """Kinds that are marched."""
 
-HEATED: Mapping[str, Callable[[Generator], Entries]] = {
-    **KINDS,
-    "given_pad": given_pad,
-    "given_journal": given_journal,
-}
+GIVEN: Mapping[str, Callable[[Generator], Entries]] = {"given_pad": given_pad, "given_journal": given_journal}
+"""Kinds of bearings at a given film, whose load follows."""
+
+HEATED: Mapping[str, Callable[[Generator], Entries]] = {**KINDS, **GIVEN}
 """Kinds of bearings that are solved with temperatures."""
