@@ -23,7 +23,8 @@ from scripts.studies.motion.solving import (
 SOLVE, DYNAMICS, MARCH = "solve", "dynamics", "march"
 """The commands that are judged."""
 
-THERMAL = ("heat_balance", "adiabatic", "across")
+ACROSS = "across"
+THERMAL = ("heat_balance", "adiabatic", ACROSS)
 """Models with temperatures, each judged as a command of its own."""
 
 ROUND_OFF = 1e-9
@@ -111,7 +112,7 @@ def _marched(kind: str, seed: int, cells: int) -> dict[str, tuple[Stated, Truth]
 
 
 def _heated(kind: str, seed: int, model: str, cells: int) -> dict[str, tuple[Stated, Truth]]:
-    scene = drawn_with_heat(kind, seed)
+    scene = drawn_with_heat(kind, seed, replaced=model != ACROSS)
     return {model: (solve_answer(scene, cells, model), heated_truth(scene, cells, model))}
 
 
