@@ -15,17 +15,21 @@ CONDUCTIVITY, CAPACITY = 0.13, 1.7e6
 """Conductivity, W/(m K), and heat capacity of a volume, J/(m³ K), of the liquid unless others are given."""
 
 
-def liquid(*, viscosity=VISCOSITY, slope=0.0, capacity=CAPACITY, conductivity=CONDUCTIVITY):
-    """A liquid of viscosity η exp(-slope (T - T₀))."""
+def liquid(*, viscosity=VISCOSITY, slope=0.0, capacity=CAPACITY, growth=0.0, conductivity=CONDUCTIVITY):
+    """A liquid of viscosity η exp(-slope (T - T₀)) and heat capacity ρc (1 + growth (T - T₀))."""
 
     def law(temperature):
         value = viscosity * np.exp(-slope * (temperature - SUPPLY))
         return value, -slope * value
 
+    def heat(temperature):
+        rise = temperature - SUPPLY
+        return capacity * rise * (1 + growth / 2 * rise), capacity * (1 + growth * rise)
+
     return Liquid(
         temperature=SUPPLY,
         viscosity=law,
-        heat=lambda t: (capacity * (t - SUPPLY), np.full(np.shape(t), capacity)),
+        heat=heat,
         conductivity=conductivity,
     )
 

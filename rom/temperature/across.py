@@ -22,7 +22,6 @@ from roughfilm.rom.temperature.equations import (
     viscosities_across,
 )
 from roughfilm.rom.temperature.power import Carriers, carriers
-from roughfilm.rom.temperature.properties import OverHeat, over_heat
 from roughfilm.rom.temperature.sweeps import summarise, sweep
 from roughfilm.rom.temperature.walls import FixedWall, SlidingWall, TurningWall, WallCondition, condition
 
@@ -47,6 +46,9 @@ SWEEPS = 6
 FALL = 0.2
 """Change of a sweep over that of the first one with the same equations, at which the equations are renewed."""
 
+LAST_FALL = 1e-4
+"""The same where the temperature no longer changes, but the equations have a residual."""
+
 PLACES = 65
 """Places across the film between which the largest temperature lies."""
 
@@ -56,14 +58,11 @@ NEAR_PEAK = 0.02
 LEAST_RANGE = 0.01
 """Range of the temperature, K, below which changes are over this range."""
 
-ROUND_OFF = 256 * float(np.finfo(float).eps)
-"""Round-off of the residuals over the heat that would be conducted across the film by the range of its temperature."""
+ROUND_OFF = 1024 * float(np.finfo(float).eps)
+"""Round-off of the residuals over the heat that the absolute temperature would conduct across the film."""
 
 LARGEST_RISE = 1000.0
 """Largest difference from the temperature of the supply, K, before the iteration ends."""
-
-LAST_SWEEPS = 400
-"""Largest number of sweeps with the last equations."""
 
 LIMITED_RENEWALS = 12
 """Number of renewals, from the first start on, after which the limited factors of the faces stay the same.
@@ -266,8 +265,7 @@ def _solved(
     """Renew viscosities and equations, and sweep, until the temperature no longer changes."""
     supply = film.liquid.temperature
     heat = np.array(np.broadcast_to(film.liquid.heat(temperature)[0], temperature.shape))
-    properties = over_heat(film.liquid, heat)
-    near = linearised(properties, supply, heat)
+    near = linearised(film.liquid, heat, temperature)
     response = np.zeros(temperature.shape) if film.turning else None
     done, reach, slope = 0, None, 0.0
     if before is not None and before.reach[0].shape == temperature.shape:
@@ -277,27 +275,23 @@ def _solved(
     into_wall, sweeps, renewed, change = np.zeros(temperature.shape[:2]), 0, 0, np.inf
     fixed = film.solution, supply, film.moved, film.nodes, film.parts
     known: Equations | None = None
+    fall, limit = FALL, RENEWALS if most is None else most
     while True:
         known = system = equations(*fixed, near, film.walls, heat, reach, known)
         done, renewed = done + 1, renewed + 1
         reach = system.reach if done >= LIMITED_RENEWALS else None
         if response is not None and (slope == 0 or renewed == 2):
             slope = _respond(film, system, response)
-        changes = _relaxed(film, system, heat, into_wall, response, slope, FALL, SWEEPS)
+        changes = _relaxed(film, system, heat, into_wall, response, slope, fall)
         sweeps, change = sweeps + len(changes), changes[0] / _range(heat, near.inverse_capacity)
-        properties = _containing(film.liquid, properties, heat, sweeps)
-        near = linearised(properties, supply, heat)
-        if change <= tolerance or renewed == (RENEWALS if most is None else most):
-            break
-    checked = audited(system, film.nodes, film.parts, heat, near.temperature - supply, film.walls)
-    residual, rounded = _residual(film, system, checked, near.temperature - supply)
-    least = max(RESIDUAL_TOLERANCE, rounded)
-    while most is None and residual > least and sweeps < LAST_SWEEPS:
-        sweeps += len(_relaxed(film, system, heat, into_wall, response, slope, 0.0, 2))
-        near = linearised(properties, supply, heat)
-        checked = audited(system, film.nodes, film.parts, heat, near.temperature - supply, film.walls)
-        residual, rounded = _residual(film, system, checked, near.temperature - supply)
-        least = max(RESIDUAL_TOLERANCE, rounded)
+        _check_range(film.liquid, heat, sweeps)
+        near = linearised(film.liquid, heat, near.near(supply, heat))
+        if change <= tolerance or renewed == limit:
+            checked = audited(system, film.nodes, film.parts, heat, near.temperature - supply, film.walls)
+            residual, rounded = _residual(film, system, checked, near.temperature, supply)
+            least, fall = max(RESIDUAL_TOLERANCE, rounded), LAST_FALL
+            if residual <= least or renewed == limit:
+                break
     if most is None and (residual > least or change > tolerance):
         raise ConvergenceError(
             f"temperature across the film: after {sweeps} sweeps it changes by {change:.1e} of its range, with a "
@@ -310,16 +304,8 @@ def _solved(
     return _result(film, system, heat, near, checked, residual, change, sweeps, following)
 
 
-def _containing(liquid: Liquid, properties: OverHeat, heat: Array, sweeps: int) -> OverHeat:
-    """A table of a liquid that contains a heat, J/m³.
-
-    Raises
-    ------
-    ConvergenceError
-        If the heat is not finite, or its range is larger than any law of viscosity holds for.
-    """
-    if properties.contains(heat):
-        return properties
+def _check_range(liquid: Liquid, heat: Array, sweeps: int) -> None:
+    """Raise ConvergenceError if the heat is not finite, or beyond the range of all laws of viscosity."""
     capacity = float(np.ravel(liquid.heat(np.array([liquid.temperature]))[1])[0])
     if not np.abs(heat).max() <= LARGEST_RISE * capacity:
         raise ConvergenceError(
@@ -328,7 +314,6 @@ def _containing(liquid: Liquid, properties: OverHeat, heat: Array, sweeps: int) 
             outcome=Outcome.DIVERGED,
             iterations=sweeps,
         )
-    return over_heat(liquid, heat)
 
 
 def _relaxed(
@@ -339,11 +324,10 @@ def _relaxed(
     response: Array | None,
     slope: float,
     fall: float,
-    most: int,
 ) -> list[float]:
     """Sweep until the mean change has fallen; a turning wall takes the temperature at which it gets no heat."""
     changes: list[float] = []
-    while len(changes) < most and not (changes and changes[-1] <= fall * changes[0]):
+    while len(changes) < SWEEPS and not (changes and changes[-1] <= fall * changes[0]):
         changes.append(_sweep(film, system, heat, into_wall))
         if response is not None and slope < 0:
             step = -float((film.nodes.area * into_wall).sum()) / slope
@@ -382,15 +366,15 @@ def _respond(film: _Film, system: Equations, response: Array) -> float:
     return slope
 
 
-def _residual(film: _Film, system: Equations, checked: Audit, rise: Array) -> tuple[float, float]:
+def _residual(film: _Film, system: Equations, checked: Audit, temperature: Array, supply: float) -> tuple[float, float]:
     """The sum of the sizes of the residuals over the power and the heat flows in, and its round-off."""
     wrong = float(np.abs(checked.residuals).sum())
     if film.turning:
         wrong += abs(float((film.nodes.area * checked.into_sliding).sum()))
     entering = float(np.abs(system.entering * film.nodes.entering[..., None]).sum())
     walls = float((film.nodes.area * (np.abs(checked.into_sliding) + np.abs(checked.into_fixed))).sum())
-    scale = float(np.abs(_power(film, system, rise)).sum()) + entering + walls
-    rounded = ROUND_OFF * float((film.nodes.conduction * np.abs(rise).max(axis=2)).sum())
+    scale = float(np.abs(_power(film, system, temperature - supply)).sum()) + entering + walls
+    rounded = ROUND_OFF * float((film.nodes.conduction * np.abs(temperature).max(axis=2)).sum())
     return (wrong / scale, rounded / scale) if scale > 0 else (wrong, rounded)
 
 

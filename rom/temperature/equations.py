@@ -12,9 +12,14 @@ from roughfilm.rom.temperature.basis import Basis
 from roughfilm.rom.temperature.blocks import LANES, blocks, exchange, sources, upward_flows
 from roughfilm.rom.temperature.power import Carriers
 from roughfilm.rom.temperature.profiles import divide, profile
-from roughfilm.rom.temperature.properties import OverHeat
 from roughfilm.rom.temperature.sweeps import audit, reaches
 from roughfilm.rom.temperature.walls import WallCondition
+
+NEWTON_STEPS = 20
+"""Largest number of steps for the temperature of a heat."""
+
+TEMPERATURE_ACCURACY = 1e-9
+"""Step, K, at which they stop."""
 
 OVERSHOOT = 1e-3
 """Amount over the range of the heat by which a value at a face may lie outside of those of its nodes."""
@@ -37,16 +42,27 @@ class Linearised:
     viscosity: Array
     steepness: Array
 
+    def near(self, supply: float, heat: Array) -> Array:
+        """T at a heat near that of these temperatures, to second order."""
+        return supply + self.offset + heat * self.inverse_capacity
 
-def linearised(properties: OverHeat, supply: float, heat: Array) -> Linearised:
-    """The temperature and the viscosity near a heat, of a liquid that is supplied at the temperature T₀, K."""
-    temperature, inverse, viscosity, thinning = properties(heat)
+
+def linearised(liquid: Liquid, heat: Array, temperature: Array) -> Linearised:
+    """The temperature and the viscosity near a heat, J/m³, from temperatures near it, K, by Newton's method."""
+    for _ in range(NEWTON_STEPS):
+        value, capacity = liquid.heat(temperature)
+        step = (heat - value) / capacity
+        if float(np.abs(step).max()) <= TEMPERATURE_ACCURACY:
+            break
+        temperature = temperature + step
+    inverse = 1 / capacity
+    viscosity, steepness = (np.ascontiguousarray(values) for values in liquid.viscosity(temperature))
     return Linearised(
         temperature=temperature,
-        offset=(temperature - supply) - heat * inverse,
+        offset=(temperature - liquid.temperature) - heat * inverse,
         inverse_capacity=inverse,
         viscosity=viscosity,
-        steepness=thinning / inverse,
+        steepness=steepness,
     )
 
 

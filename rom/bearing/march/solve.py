@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.ranges import in_range, whole_in_range
-from roughfilm.contact.foundation.units import Quantity
+from roughfilm.contact.foundation.units import ZERO_CELSIUS, Quantity
 from roughfilm.rom.bearing.geometry.open_bore import OpenBore
 from roughfilm.rom.bearing.march.course import Duty, film_at, refuse_unsupported
 from roughfilm.rom.bearing.march.journals import with_coordinates
@@ -233,6 +233,9 @@ def march_bearing(
                 warnings.append(
                     f"{', '.join(sorted(unknown))}: unknown uncertainty, as the roughness has too few points"
                 )
+    if "temperature" in series.units:
+        heated = series["temperature"] + ZERO_CELSIUS
+        warnings += scene.lubricant.temperature_warnings(float(heated.min()), float(heated.max()))
     infinite = Observer(duty=duty, film=film_at(duty, cells, walls_of(duty.scene))).infinite_flows
     if infinite:
         quantities |= {

@@ -14,6 +14,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.contact.foundation.ranges import whole_in_range
 from roughfilm.contact.foundation.timing import stopwatch
+from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.contact.foundation.writing.kinds import JSON, PAGE
 from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
 from roughfilm.rom.bearing.mixed.store import MARK, UNITS, numbers_of, write_csv
@@ -239,6 +240,8 @@ def curve_entries(
         for curve in curves
         if (missing := len(speeds) - len(curve.points))
     ]
+    if heated := [point.temperature + ZERO_CELSIUS for point in points if point.temperature is not None]:
+        warnings += scene.lubricant.temperature_warnings(min(heated), max(heated))
     return {
         "curves": [
             {

@@ -35,6 +35,7 @@ STYLES = {
     "homogenized": Style(colour="#b2182b", line="-", marker="v"),
     "direct": Style(colour="#252525", line="-", marker="P"),
     "mixed": Style(colour="#762a83", line="-", marker="X"),
+    "shear_thinning": Style(colour="#1b7837", line="-.", marker="H"),
     "heat_balance": Style(colour="#a6611a", line="--", marker="p"),
     "adiabatic": Style(colour="#e7298a", line="-", marker="d"),
     "across": Style(colour="#01665e", line="-", marker="*"),

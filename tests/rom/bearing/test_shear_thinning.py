@@ -96,6 +96,10 @@ def test_uncertainties_cover_a_finer_grid_and_a_load_leads_back_to_its_film() ->
     fine = rf.solve(scene(LAW, PAD), model="shear_thinning", resolution=96)
     for name in ("load", "friction", "pressure_max", "inlet_flow"):
         assert abs(coarse[name].value - fine[name].value) <= coarse[name].uncertainty + fine[name].uncertainty, name
+    for one in (coarse, fine):
+        assert one.numerics.details["viscosity_change"] < 1e-6
+        assert one.numerics.details["coupled_residual"] < 1e-5
+        assert one.numerics.details["contraction"] < 0.55  # at most 1 - n for steps without acceleration
     load = {"force": coarse["load"].value}
     back = rf.solve(scene(LAW, PAD, load=load), model="shear_thinning", resolution=24)
     assert back["film_min"].value == pytest.approx(10e-6, rel=1e-5)

@@ -32,6 +32,13 @@ def test_heat_is_conserved(field):
     assert field.balance.fixed_wall > 0.01 * field.balance.dissipation
 
 
+def test_heat_is_conserved_with_a_heat_capacity_that_grows(film):
+    oil = liquid(viscosity=0.02, slope=0.03, growth=3e-3)
+    warm = temperature_across(film, oil, sliding_wall=TurningWall(), fixed_wall=OUTSIDE, entering=SUPPLY + 20)
+    assert abs(imbalance(warm.balance)) < 1e-8
+    assert warm.balance.entering > 0.1 * warm.balance.dissipation
+
+
 def test_the_power_is_that_of_friction_and_supply(film):
     """The supply adds its pressure times its flow, a small part of the power."""
     warm = temperature_across(film, liquid(viscosity=0.02), sliding_wall=InsulatedWall(), fixed_wall=OUTSIDE)

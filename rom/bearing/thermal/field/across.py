@@ -9,12 +9,19 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
-from roughfilm.rom.bearing.thermal.field.mixing import MIXED, at_mixture, new_lubricant, returning, temperature_of
+from roughfilm.rom.bearing.thermal.field.mixing import (
+    COARSE_NODES,
+    MIXED,
+    at_mixture,
+    new_lubricant,
+    returning,
+    temperature_of,
+)
+from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
 from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.bearing.thermal.tables import Adiabatic, Conducting, GivenTemperature, HalfSpace, Heat, Turning
 from roughfilm.rom.cavitation.evaluation.flows import node_balances
-from roughfilm.rom.cavitation.interpolation import interpolated
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.shear_thinning.film import thinned_profiles
@@ -31,10 +38,7 @@ from roughfilm.rom.temperature.walls import (
 )
 
 TOLERANCE = 1e-5
-"""Mean change of the temperature over its range at which its iteration stops, as small as that of film and temperature.
-
-On a grid that is finer than that of the film before, the viscosities are renewed once, as the film changes anyway.
-"""
+"""Mean change of the temperature over its range at which its iteration stops, as that of film and temperature."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +67,6 @@ class BetweenWalls:
         back, rubs = returning(scene, solution, new), rubbing(scene, solution, near)
         sliding, fixed = walls_of(scene, liquid.temperature)
         sheared = sheared_liquid(scene, solution)
-        refined = near is not None and near.temperature.shape != solution.grid.shape
 
         def temperatures(inlet: float | None, known: TemperatureAcross | None) -> TemperatureAcross:
             return temperature_across(
@@ -75,7 +78,6 @@ class BetweenWalls:
                 added_power=None if rubs is None else rubs.power,
                 start=_start(near, solution) if known is None else known,
                 tolerance=TOLERANCE,
-                renewals=1 if refined else None,
             )
 
         if back is None:
@@ -85,7 +87,7 @@ class BetweenWalls:
                 temperatures,
                 lambda one: back.mixture(liquid, one.carried),
                 back.first if near is None or near.inlet is None else near.inlet,
-                solution.state.pressure.size,
+                once=near is not None and solution.state.pressure.size > COARSE_NODES,
             )
         balance, leaving = found.balance, float(np.maximum(-node_balances(solution), 0.0).sum())
         heat = scene.heat or Heat()
@@ -111,7 +113,7 @@ class BetweenWalls:
                 "fixed_wall_temperature": found.fixed_wall.temperature,
             },
             start=found,
-            settled=not refined and (mixture is None or abs(mixture.error) <= MIXED),
+            settled=mixture is None or abs(mixture.error) <= MIXED,
         )
 
 
@@ -143,10 +145,12 @@ def _start(near: HeatedFilm | None, solution: Solution) -> TemperatureAcross | N
     assert isinstance(known, TemperatureAcross)
     if known.temperature.shape[:2] == solution.grid.shape:
         return known
-    layers = tuple(np.ascontiguousarray(known.temperature[..., layer]) for layer in range(known.points.size))
-    moved = interpolated(layers, near.grid, solution.grid, solution.problem.shape.joined)
+    x, y = np.meshgrid(solution.grid.x, solution.grid.y, indexing="ij")
+    layers = np.moveaxis(known.temperature, -1, 0)
+    moved = between_nodes(layers, near.grid, solution.problem.shape.joined, x.ravel(), y.ravel())
+    temperature = np.ascontiguousarray(moved.reshape(-1, *x.shape).transpose(1, 2, 0))
     fresh = replace(known.iterate, renewals=0, response=None)
-    return replace(known, temperature=np.stack(moved, axis=-1), iterate=fresh)
+    return replace(known, temperature=temperature, iterate=fresh)
 
 
 def walls_of(scene: Bearing, supplied: float) -> tuple[SlidingWall, FixedWall]:

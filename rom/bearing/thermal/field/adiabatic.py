@@ -9,13 +9,27 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm, hottest, start_of
-from roughfilm.rom.bearing.thermal.field.mixing import MIXED, at_mixture, new_lubricant, replaced, returning
+from roughfilm.rom.bearing.thermal.field.mixing import (
+    COARSE_NODES,
+    MIXED,
+    at_mixture,
+    new_lubricant,
+    replaced,
+    returning,
+)
 from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.shear_thinning.film import thinned
 from roughfilm.rom.temperature.mean import MeanTemperature, mean_temperature
+
+FREE_FILMS = 3
+"""Number of films on a grid after which limited slopes of the temperature stay the same.
+
+They would keep changing where the temperature is uneven or liquid circulates, so that films and temperatures would not
+converge.
+"""
 
 
 @dataclass(frozen=True)
@@ -40,6 +54,8 @@ class AdiabaticWalls:
         scene, liquid = self.scene, self.scene.lubricant.liquid
         new = new_lubricant(scene, solution, liquid.temperature)
         cooled, back = replaced(scene, solution, liquid), returning(scene, solution, new)
+        before = near if near is not None and near.temperature.shape == solution.grid.shape else None
+        slopes = before.slopes if before is not None and before.films >= FREE_FILMS else None
         rubs, at_rest = rubbing(scene, solution, near), viscosity_at_rest(scene, solution, near)
 
         def temperatures(inlet: float | None, known: MeanTemperature | None) -> MeanTemperature:
@@ -52,6 +68,7 @@ class AdiabaticWalls:
                 added_power=0.0 if rubs is None else rubs.power,
                 at_rest=at_rest,
                 start=start_of(near, solution) if known is None else known.temperature,
+                slopes=slopes,
             )
 
         if back is None:
@@ -61,7 +78,7 @@ class AdiabaticWalls:
                 temperatures,
                 lambda one: back.mixture(liquid, one.temperature),
                 back.first if near is None or near.inlet is None else near.inlet,
-                solution.state.pressure.size,
+                once=before is not None and solution.state.pressure.size > COARSE_NODES,
             )
         viscosities, stress = with_thinning(scene, solution, found, near)
         generated = float(found.dissipation.sum())
@@ -79,6 +96,8 @@ class AdiabaticWalls:
             friction=None if rubs is None else rubs.friction,
             start=stress,
             settled=mixture is None or abs(mixture.error) <= MIXED,
+            slopes=found.slopes,
+            films=1 if before is None else before.films + 1,
         )
 
 

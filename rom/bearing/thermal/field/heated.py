@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.grid import Grid
-from roughfilm.rom.cavitation.interpolation import interpolated
 from roughfilm.rom.cavitation.solve import Solution
 
 SAME = 1e-4
@@ -63,6 +63,8 @@ class HeatedFilm:
     walls : temperatures of walls at the nodes, K, shape (nx, ny), by the name of the field.
     start : what the next iteration starts from.
     settled : whether the energy equation is solved to its tolerance, and the mixture at the inlet is that of the film.
+    slopes : limited slopes of the temperature, of models that keep them.
+    films : number of films on this grid up to this one, each with temperatures from those of the one before.
     """
 
     grid: Grid
@@ -82,6 +84,8 @@ class HeatedFilm:
     walls: Mapping[str, Array] = field(default_factory=dict)
     start: object = None
     settled: bool = True
+    slopes: tuple[Array, Array] | None = None
+    films: int = 1
 
 
 def hottest(temperature: Array, grid: Grid) -> tuple[float, float]:
@@ -101,4 +105,6 @@ def start_of(near: HeatedFilm | None, solution: Solution) -> Array | None:
         return None
     if near.temperature.shape == solution.grid.shape:
         return near.temperature
-    return interpolated((near.temperature,), near.grid, solution.grid, solution.problem.shape.joined)[0]
+    x, y = np.meshgrid(solution.grid.x, solution.grid.y, indexing="ij")
+    found = between_nodes(near.temperature, near.grid, solution.problem.shape.joined, x.ravel(), y.ravel())
+    return found.reshape(solution.grid.shape)

@@ -25,8 +25,8 @@ HeatedT = TypeVar("HeatedT")
 MIXED = 1e-4
 """Error of the temperature of a mixture, K, at which its iteration stops."""
 
-COARSE_NODES = 1000
-"""Largest number of nodes of a grid on which the mixture of each film is iterated to the end."""
+COARSE_NODES = 2000
+"""Largest number of nodes of a grid on which the mixture of each film is iterated to the end, as that of the first."""
 
 LEAST_STEP = 0.01
 """Smallest step of the temperature at the inlet, K, from which the slope of the mixture is taken."""
@@ -167,20 +167,21 @@ def at_mixture(
     solve: Callable[[float, HeatedT | None], HeatedT],
     image: Callable[[HeatedT], float],
     first: Mixture,
-    nodes: int,
+    *,
+    once: bool,
 ) -> tuple[HeatedT, Mixture]:
     """The temperatures of a film whose inlet has about the temperature of the mixture that they bring about.
 
     The heat that leaves grows by less than the heat that enters, since warmer lubricant is thinner, so that the mixture
     contracts by at most its share of hot lubricant and what stays in the film; the iteration extrapolates this slope.
-    On a fine grid there is one step, with the slope of a coarse one: the film changes with the mixture anyway.
+    On a fine grid one step is enough, with the slope of a coarse one: the film changes with the mixture anyway.
 
     Parameters
     ----------
     solve : solve(temperature, near), the temperatures of the film, K, for a temperature at the inlet.
     image : image(temperatures), the temperature of their mixture, K.
     first : mixture from which the iteration starts.
-    nodes : number of nodes of the grid.
+    once : whether one step is enough.
 
     Returns
     -------
@@ -199,7 +200,7 @@ def at_mixture(
         if before is not None and abs(inlet - before[0]) >= LEAST_STEP:
             slope = min(max(1 + (rest - before[1]) / (inlet - before[0]), 0.0), STEEPEST)
         mixture = Mixture(temperature=inlet, error=rest, slope=slope)
-        if abs(rest) <= MIXED or nodes > COARSE_NODES:
+        if abs(rest) <= MIXED or once:
             return near, mixture
         if inlet > HOTTEST:
             break

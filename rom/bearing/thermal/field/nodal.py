@@ -3,12 +3,16 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.fluid import Viscosities, ViscosityField
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.interpolation import between
 from roughfilm.rom.cavitation.solve import Solution
+
+LEAST_ROWS = 4
+"""Smallest number of rows of nodes of a film from which values are extrapolated to its sides."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,13 +39,42 @@ class NodalField:
         return x.shape == nodes and np.array_equal(x[:, 0], self.grid.x) and np.array_equal(y[0], self.grid.y)
 
     def _between(self, x: Array, y: Array) -> Array:
-        grid, values, shape = self.grid, self.values, np.broadcast_shapes(x.shape, y.shape)
-        along = between(grid.x, grid.spacing_x, np.broadcast_to(x, shape).ravel(), joined=self.joined[0])
-        across = between(grid.y, grid.spacing_y, np.broadcast_to(y, shape).ravel(), joined=self.joined[1])
-        (west, east, ahead), (south, north, beside) = along, across
-        low = values[:, west, south] * (1 - beside) + values[:, west, north] * beside
-        high = values[:, east, south] * (1 - beside) + values[:, east, north] * beside
-        return np.asarray((low * (1 - ahead) + high * ahead).reshape(3, *shape))
+        x, y = np.broadcast_arrays(x, y)
+        found = between_nodes(self.values, self.grid, self.joined, x.ravel(), y.ravel())
+        return np.asarray(found.reshape(3, *x.shape))
+
+
+def between_nodes(values: Array, grid: Grid, joined: tuple[bool, bool], x: Array, y: Array) -> Array:
+    """Values at positions between the nodes of a grid, shape (..., positions), linear along and across.
+
+    The nodes on the sides of a film belong to the bath there. Beside them values are extrapolated from the film, as
+    they jump where lubricant enters a cavity.
+
+    Parameters
+    ----------
+    values : values at the nodes, shape (..., nx, ny).
+    joined : whether the film is periodic in x, and in y.
+    x, y : positions, shape (positions,).
+    """
+    inner = values
+    if grid.y.size >= LEAST_ROWS and not joined[1]:
+        inner = values.copy()
+        for side, one, two in ((0, 1, 2), (-1, -2, -3)):
+            reach = (grid.y[one] - grid.y[side]) / (grid.y[two] - grid.y[one])
+            inner[..., side] = values[..., one] + reach * (values[..., one] - values[..., two])
+    west, east, ahead = between(grid.x, grid.spacing_x, x, joined=joined[0])
+    south, north, beside = between(grid.y, grid.spacing_y, y, joined=joined[1])
+
+    def linear(known: Array, at: slice | NDArray[np.bool_]) -> Array:
+        low = known[..., west[at], south[at]] * (1 - beside[at]) + known[..., west[at], north[at]] * beside[at]
+        high = known[..., east[at], south[at]] * (1 - beside[at]) + known[..., east[at], north[at]] * beside[at]
+        return np.asarray(low * (1 - ahead[at]) + high * ahead[at])
+
+    found = linear(inner, slice(None))
+    if inner is not values:
+        on_side = (y <= grid.y[0]) | (y >= grid.y[-1])
+        found[..., on_side] = linear(values, on_side)
+    return found
 
 
 def _viscosities(values: Array) -> Viscosities:

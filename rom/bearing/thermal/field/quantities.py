@@ -8,10 +8,10 @@ import numpy as np
 from roughfilm.contact.foundation.units import ZERO_CELSIUS, Quantity
 from roughfilm.rom.bearing.quantities import Fields, Outputs, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.field.coupling import Heating
+from roughfilm.rom.bearing.thermal.field.coupling import FIELD_TOLERANCE, Heating
 from roughfilm.rom.bearing.thermal.field.films import HeatedSolution
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
-from roughfilm.rom.bearing.thermal.field.residual import residual_of
+from roughfilm.rom.bearing.thermal.field.residual import iteration
 from roughfilm.rom.bearing.thermal.field.rubbing import with_friction
 from roughfilm.rom.cavitation.solve import Solution
 
@@ -101,10 +101,16 @@ class HeatedOutputs:
         }
 
     def warnings(self, scene: Bearing, solution: Solution) -> list[str]:
-        """Warnings about temperatures outside of the range of the law of the viscosity."""
+        """Warnings about temperatures outside of the range of the law of the viscosity, and about their iteration."""
+        changes = solution.changes if isinstance(solution, HeatedSolution) else (0.0,)
+        apart = [
+            f"temperature: the viscosity of the film and that at its temperatures still differ by {changes[-1]:.1e} "
+            f"after {len(changes)} films, above the tolerance of {FIELD_TOLERANCE:.0e}; take more cells"
+        ]
         temperature = self.heated(solution).temperature
         beyond = scene.lubricant.temperature_warnings(float(temperature.min()), float(temperature.max()))
-        return [*self.base.warnings(scene, solution), *beyond]
+        unsettled = apart if changes[-1] > FIELD_TOLERANCE else []
+        return [*self.base.warnings(scene, solution), *beyond, *unsettled]
 
 
 def _quantities(solution: Solution, found: HeatedFilm) -> dict[str, Quantity]:
@@ -166,18 +172,13 @@ def _thinning(solution: HeatedSolution) -> float:
 def details(solution: Solution) -> dict[str, float]:
     """The numbers of the iteration of film and temperatures, for the numerics of a result.
 
-    ``viscosity_change`` is the root mean square of the difference of ln η between that of the film and that at its
-    temperatures, ``largest_viscosity_change`` the largest one at a node, ``coupled_residual`` the residual of the film
-    with the latter viscosity, ``energy_imbalance`` the error of the heat balance, ``contraction`` the mean ratio of
-    successive differences, and ``heated_films`` the number of films on the grid.
+    They are those of :func:`roughfilm.rom.bearing.thermal.field.residual.iteration`, ``energy_imbalance``, the error of
+    the heat balance, and ``heated_films``, the number of films on the grid.
     """
     if not isinstance(solution, HeatedSolution):
         return {}
     return {
-        "viscosity_change": solution.changes[-1],
-        "largest_viscosity_change": solution.largest,
-        "coupled_residual": residual_of(solution, solution.heated.viscosities),
+        **iteration(solution),
         "energy_imbalance": solution.heated.imbalance,
-        "contraction": solution.contraction,
         "heated_films": float(len(solution.changes)),
     }

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from roughfilm.rom.bearing.thermal.field.films import HeatedSolution
 from roughfilm.rom.cavitation.balance import CAVITY, FILM
 from roughfilm.rom.cavitation.discretise import network
 from roughfilm.rom.cavitation.evaluation.flows import flow_across, flow_along, node_balances
@@ -36,3 +37,18 @@ def residual_of(solution: Solution, viscosities: Viscosities) -> float:
         along = along[:-1]
     largest = max(float(np.abs(along).max()), float(np.abs(across[:, :-1]).max(initial=0.0)))
     return float(balances.max(initial=0.0)) / (largest or 1.0)
+
+
+def iteration(solution: HeatedSolution) -> dict[str, float]:
+    """The numbers of the iteration of a film and its viscosities.
+
+    ``viscosity_change`` is the root mean square of the difference of ln η between the film and its viscosities,
+    ``largest_viscosity_change`` the largest one at a node, ``coupled_residual`` the residual of the film with these
+    viscosities, and ``contraction`` the mean ratio of successive differences.
+    """
+    return {
+        "viscosity_change": solution.changes[-1],
+        "largest_viscosity_change": solution.largest,
+        "coupled_residual": residual_of(solution, solution.heated.viscosities),
+        "contraction": solution.contraction,
+    }

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from scipy.special import lambertw
 
@@ -126,6 +127,21 @@ def test_energy_leaves_as_it_comes_in(case):
         assert off == pytest.approx(20.0 * (found["effective_temperature"] - 20.0), rel=1e-6)
 
 
+def test_a_bore_draws_new_lubricant_where_its_pressure_is_below_that_of_the_sides():
+    """What the pressure gradient at the sides draws in, and no net flow, takes the heat away."""
+    bath = {"sides": {"low": "0.1 MPa", "high": "0.1 MPa"}}
+    result = solved(BORE | {"eccentricity": [0.3, -0.4]}, boundary=bath, cells=48)
+    found, fields = values(result), {name: field.values for name, field in result.fields.items()}
+    eta = ETA * math.exp(-BETA * (found["effective_temperature"] - COLD))
+    drop = fields["pressure"][:, 0] - fields["pressure"][:, 1]
+    step_x, step_y = (float(np.diff(fields[axis], axis=n).max()) for n, axis in enumerate("xy"))
+    drawn = 2 * float(np.maximum(drop * fields["film_thickness"][:, 0] ** 3 / (12 * eta * step_y), 0).sum() * step_x)
+    taken = DENSITY * CAPACITY * drawn * (found["outlet_temperature"] - COLD)
+    assert abs(found["side_leakage"]) < 1e-9 * drawn
+    assert taken == pytest.approx(found["heat_to_lubricant"], rel=1e-3)
+    assert found["heat_to_lubricant"] == pytest.approx(found["power_loss"], rel=1e-9)
+
+
 def test_a_wide_wedge_is_that_of_the_closed_form():
     """Friction F = η f and flow Q are those of Reynolds' wedge; T - T0 = η(T) f u/(2 ρ c Q), a Lambert function."""
     length, film, ratio, speed = 0.05, 20e-6, 1.0, 5.0
@@ -246,6 +262,14 @@ def test_thermal_runaway_is_one_line():
         solved(WEDGE, oil=oil)
 
 
+def test_a_temperature_outside_of_the_range_of_its_law_has_a_warning():
+    """The range of the law is that about the supply temperature, also for a film that is hot."""
+    hot = solved(WEDGE | {"film": "5 um", "rise": "5 um"}, speed="20 m/s")
+    assert hot["effective_temperature"].value > COLD + 30
+    assert [one for one in hot.warnings if one.startswith("temperature: ") and "from 10 °C to 70 °C" in one]
+    assert not [one for one in solved(WEDGE).warnings if one.startswith("temperature: ")]
+
+
 def test_heat_that_nothing_takes_away_is_refused():
     still = {"sides": {"low": "0.1 MPa", "high": "0.1 MPa"}}
     with pytest.raises(InputError, match=r"^heat: no lubricant flows .* heat_transfer and area[^\n]*$"):
@@ -267,6 +291,21 @@ def test_heat_that_nothing_takes_away_is_refused():
 def test_incomplete_heat_transfer_is_refused(heat, geometry, match):
     with pytest.raises(InputError, match=match):
         solved(geometry, heat=heat)
+
+
+@pytest.mark.parametrize(
+    ("tables", "place"),
+    [
+        ({"supply": [RECESS | {"temperature": "50 degC"}]}, "supply.0"),
+        ({"boundary": {"inlet": {"temperature": "50 degC"}}}, "boundary.inlet"),
+    ],
+)
+def test_entering_lubricant_has_a_temperature_only_with_a_law(tables, place):
+    cold = {name: value for name, value in OIL.items() if name != "thermoviscosity"}
+    entries = {"name": "cold", "kind": "bearing", "geometry": WEDGE, "motion": {"speed": "1 m/s"}} | tables
+    with pytest.raises(InputError, match=rf"{place}.temperature: got one without lubricant.thermoviscosity"):
+        read_scene(entries | {"lubricant": cold})
+    assert read_scene(entries | {"lubricant": OIL}).isothermal().lubricant.thermoviscosity is None
 
 
 def test_it_applies_to_lubricants_with_temperature_alone():
