@@ -185,7 +185,7 @@ def exchange_of(
     ]
     new.append((max(displaced, 0.0), supply_temperature))
     carried = 0.0
-    if "inlet_flow_per_width" not in quantities:
+    if ("inlet_flow_per_width" if wide else "inlet_flow") not in quantities:
         carried = max(float(flow_along(solution).sum(axis=1).min()), 0.0)
         if scene.supply:
             drained = (1 - heat.carried_over) * carried
