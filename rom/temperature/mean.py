@@ -14,7 +14,7 @@ from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.dissipation import Flows, dissipation, film_flows
 from roughfilm.rom.temperature.properties import over_heat
-from roughfilm.rom.temperature.transport import arrange, carry, extrapolate, limit, sweep
+from roughfilm.rom.temperature.transport import arrange, carry, extrapolate, limit, straighten, sweep
 
 TOLERANCE = 1e-12
 """Sum of the errors of all balances, over the heat that enters and is generated, at which a solve stops."""
@@ -84,6 +84,7 @@ class MeanTemperature:
     imbalance : relative error of the heat balance of the film.
     outlet_temperature : mean temperature of the liquid that leaves the film, by its flow, K; NaN if none leaves.
     highest : position (x, y) of the largest temperature.
+    slopes : limited coefficients of the extrapolation along and across, each of shape (nx, ny).
     """
 
     temperature: Array
@@ -95,6 +96,7 @@ class MeanTemperature:
     imbalance: float
     outlet_temperature: float
     highest: tuple[float, float]
+    slopes: tuple[Array, Array]
 
 
 def mean_temperature(
@@ -107,6 +109,7 @@ def mean_temperature(
     added_power: float | Array = 0.0,
     at_rest: Array | None = None,
     start: Array | None = None,
+    slopes: tuple[Array, Array] | None = None,
 ) -> MeanTemperature:
     """Solve Σ F e(T) = W η(T)/η - U A (T - T_w), the heat balance of every node, for the temperature over a film.
 
@@ -135,6 +138,8 @@ def mean_temperature(
     at_rest : viscosity at rest of the temperatures with which the film was solved, Pa s, shape (nx, ny), of a liquid
         that thins with shear: W then changes as the viscosity at rest does. By default η is that of the solution.
     start : temperature from which to start, K, shape (nx, ny).
+    slopes : limited coefficients of the extrapolation, of a film near this one; they stay the same but where liquid no
+        longer flows straight through a node. By default they follow the temperature of this film.
 
     Raises
     ------
@@ -165,9 +170,12 @@ def mean_temperature(
     heat = np.array(liquid.heat(inlet if start is None else start)[0])
     properties = over_heat(liquid, heat)
     slope_x, slope_y, face_x, face_y = (np.zeros(shape) for _ in range(4))
+    if slopes is not None:
+        slope_x, slope_y = (one.copy() for one in slopes)
+        straighten(flows.along, flows.across, slope_x, slope_y)
     coldest, warmest = min(inlet.min(), walls.min()), max(inlet.max(), walls.max())
     most = liquid.heat(np.array([warmest + MAX_HEATING]))[0][0]
-    kept, limited = flows.stored + leaving, True
+    kept, limited = flows.stored + leaving, slopes is None
     error = np.inf
     for iteration in range(ITERATIONS):
         highest = np.unravel_index(int(np.argmax(heat)), shape)
@@ -215,6 +223,7 @@ def mean_temperature(
         imbalance=abs(difference) / (scale or 1.0),
         outlet_temperature=float((leaving * temperature).sum() / leaving.sum()) if leaving.any() else float("nan"),
         highest=(float(solution.grid.x[highest[0]]), float(solution.grid.y[highest[1]])),
+        slopes=(slope_x, slope_y),
     )
 
 

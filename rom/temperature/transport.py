@@ -111,6 +111,20 @@ def limit(along, across, spacing_x, spacing_y, heat, lowered, slope_x, slope_y):
 
 
 @compiled
+def straighten(along, across, slope_x, slope_y):  # type: ignore[no-untyped-def]
+    """Set the coefficients a and b to 0 where no liquid flows straight through a node along i, or along j."""
+    nx, ny = along.shape
+    for i in range(nx):
+        behind = (i if i > 0 else nx) - 1
+        for j in range(ny):
+            low = (j if j > 0 else ny) - 1
+            if not along[behind, j] * along[i, j] > 0.0:
+                slope_x[i, j] = 0.0
+            if not across[i, low] * across[i, j] > 0.0:
+                slope_y[i, j] = 0.0
+
+
+@compiled
 def sweep(order, along, across, slope_x, slope_y, centre, source, heat, face_x, face_y):  # type: ignore[no-untyped-def]
     """Solve Σ F e (outflow minus inflow) + c e = s for the heat of each node in turn, from the latest values of others.
 

@@ -24,6 +24,13 @@ from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.shear_thinning.film import thinned
 from roughfilm.rom.temperature.mean import MeanTemperature, mean_temperature
 
+FREE_FILMS = 3
+"""Number of films on a grid after which limited slopes of the temperature stay the same.
+
+They would keep changing where the temperature is uneven or liquid circulates, so that films and temperatures would not
+converge.
+"""
+
 
 @dataclass(frozen=True)
 class AdiabaticWalls:
@@ -47,7 +54,8 @@ class AdiabaticWalls:
         scene, liquid = self.scene, self.scene.lubricant.liquid
         new = new_lubricant(scene, solution, liquid.temperature)
         cooled, back = replaced(scene, solution, liquid), returning(scene, solution, new)
-        same = near is not None and near.temperature.shape == solution.grid.shape
+        before = near if near is not None and near.temperature.shape == solution.grid.shape else None
+        slopes = before.slopes if before is not None and before.films >= FREE_FILMS else None
         rubs, at_rest = rubbing(scene, solution, near), viscosity_at_rest(scene, solution, near)
 
         def temperatures(inlet: float | None, known: MeanTemperature | None) -> MeanTemperature:
@@ -60,6 +68,7 @@ class AdiabaticWalls:
                 added_power=0.0 if rubs is None else rubs.power,
                 at_rest=at_rest,
                 start=start_of(near, solution) if known is None else known.temperature,
+                slopes=slopes,
             )
 
         if back is None:
@@ -69,7 +78,7 @@ class AdiabaticWalls:
                 temperatures,
                 lambda one: back.mixture(liquid, one.temperature),
                 back.first if near is None or near.inlet is None else near.inlet,
-                once=same and solution.state.pressure.size > COARSE_NODES,
+                once=before is not None and solution.state.pressure.size > COARSE_NODES,
             )
         viscosities, stress = with_thinning(scene, solution, found, near)
         generated = float(found.dissipation.sum())
@@ -87,6 +96,8 @@ class AdiabaticWalls:
             friction=None if rubs is None else rubs.friction,
             start=stress,
             settled=mixture is None or abs(mixture.error) <= MIXED,
+            slopes=found.slopes,
+            films=1 if before is None else before.films + 1,
         )
 
 

@@ -146,11 +146,16 @@ class HeatedBearing:
         return heated
 
     def placed(self) -> Callable[[WithField], PlacedFilm]:
-        """heated(at), the film of a wall that moves freely on a grid, with the viscosities of its temperatures."""
+        """heated(at), the film of a wall that moves freely on a grid, with the viscosities of its temperatures.
+
+        Those of a film of which half of the width is solved are the same in both halves: differences of the tolerance
+        would leave out the other half, and grow.
+        """
 
         def heated(at: WithField) -> PlacedFilm:
             def again(film: PlacedFilm, values: Array) -> PlacedFilm:
-                return at(in_scene(film.solution, values), film)
+                even = (values + values[..., ::-1]) / 2 if film.film.solved.halved else values
+                return at(in_scene(film.solution, even), film)
 
             film, solution = self._coupled(at(self.last.viscosities, None), again)
             return replace(film, heated=solution)

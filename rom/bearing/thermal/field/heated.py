@@ -63,6 +63,8 @@ class HeatedFilm:
     walls : temperatures of walls at the nodes, K, shape (nx, ny), by the name of the field.
     start : what the next iteration starts from.
     settled : whether the energy equation is solved to its tolerance, and the mixture at the inlet is that of the film.
+    slopes : limited slopes of the temperature, of models that keep them.
+    films : number of films on this grid up to this one, each with temperatures from those of the one before.
     """
 
     grid: Grid
@@ -82,6 +84,8 @@ class HeatedFilm:
     walls: Mapping[str, Array] = field(default_factory=dict)
     start: object = None
     settled: bool = True
+    slopes: tuple[Array, Array] | None = None
+    films: int = 1
 
 
 def hottest(temperature: Array, grid: Grid) -> tuple[float, float]:

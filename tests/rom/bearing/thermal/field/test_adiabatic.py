@@ -193,6 +193,24 @@ def test_ridges_are_averaged():
     assert value(hot, "temperature_max") > exact_wedge()["temperature_max"]  # ridges across narrow the film
 
 
+BORE = {"shape": "lobes", "radius": "25 mm", "width": "50 mm", "clearance": "50 um", "eccentricity": [0.1, -0.6]}
+
+
+@pytest.mark.parametrize("viscosity", ["0.3 Pa*s", "3 Pa*s"])
+def test_a_full_bore_whose_lubricant_circulates_has_temperatures(viscosity):
+    """Where 3 Pa s are not thinned yet, hardly any lubricant flows through the sides: no temperature exists for it."""
+    lubricant = {**LUBRICANT, "viscosity": viscosity}
+    fed = {"boundary": {"sides": {"low": "0.2 MPa", "high": "0.2 MPa"}}}
+    hot = solved(scene(BORE, lubricant=lubricant, **fed), 32)
+    assert hot.numerics.details["heated_films"] <= 50
+    assert hot.numerics.details["viscosity_change"] < 1e-3
+    assert hot.numerics.details["energy_imbalance"] < 1e-8
+    assert value(hot, "heat_to_lubricant") == pytest.approx(value(hot, "heat_generated"))
+    temperature = hot.fields["temperature"].values
+    np.testing.assert_allclose(temperature, temperature[:, ::-1], atol=0.1)
+    assert temperature.min() >= SUPPLIED - 0.1
+
+
 def test_lubricant_that_returns_without_a_side_runs_away():
     wide = {key: one for key, one in JOURNAL.items() if key != "width"}
     with pytest.raises(ConvergenceError, match=r"thermal runaway, hot lubricant enters the film again") as caught:
