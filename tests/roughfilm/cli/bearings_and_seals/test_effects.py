@@ -35,7 +35,7 @@ def pad(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]
     return out, json.loads(done.stdout)
 
 
-def test_the_example_has_every_effect_of_isothermal_films_and_the_steps_lead_to_all_of_it(pad: tuple[Path, dict[str, Any]]) -> None:
+def test_the_example_has_every_isothermal_effect_and_the_steps_lead_to_all(pad: tuple[Path, dict[str, Any]]) -> None:
     entries = pad[1]
     assert entries["left_out"] == ["shear thinning", "heating"]
     for view, names in (("at_film", ("load", "friction", "side_leakage")), ("under_load", ("film", "friction"))):
