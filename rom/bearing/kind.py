@@ -14,6 +14,7 @@ from roughfilm.contact.foundation.faults import Fault, faults_of, known_keys, un
 from roughfilm.contact.foundation.line_numbers import Location
 from roughfilm.contact.foundation.units import Quantity, to_si
 from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.rom.bearing.effects.absent import absent_effects
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.geometry.shapes import SHAPES
@@ -256,7 +257,7 @@ def omitted(scene: Bearing, model: Any, quantity: str) -> Omission | None:
 
 
 def missing(scene: Bearing, model: Any) -> float:
-    """The relative change of the load by the effects among inertia and cavitation that a model leaves out."""
+    """The relative change of the load by the effects among inertia, cavitation and heating that a model leaves out."""
     from roughfilm.rom.bearing.omission import missing  # slow to import
 
     return missing(scene, model)
@@ -285,13 +286,17 @@ def window(scene: Bearing) -> Surface | None:
     return scene.roughness.read() if isinstance(scene.roughness, RoughSurface) else None
 
 
+def excluded(scene: Bearing) -> str:
+    """The effects that no model of a bearing includes, in words."""
+    heat = ", heat and" if scene.lubricant.lacking else " and"
+    return f"inertia{heat} deformation of the bodies as a whole"
+
+
 def composed(scene: Bearing) -> tuple[str, ...]:
     """A line for each effect with its model and the reason, and one for the film under a load."""
-    from roughfilm.rom.bearing.effects.explanation import effect_models, heating_words  # slow to import
+    from roughfilm.rom.bearing.effects.explanation import effect_models  # slow to import
 
     lines = [f"{one.effect}: {one.model}, {one.why}" for one in effect_models(scene)]
-    if (heating := heating_words(scene)) is not None:
-        lines.append(heating)
     if scene.load is not None:
         film, given = expected_scene(scene).geometry.thinnest, scene.geometry.film
         first = "" if given is None else f"; the given film of {given:.3g} m is the first value of the search"
@@ -326,9 +331,11 @@ KIND = Kind(
     columns=columns,
     numbers=bearing_numbers,
     symbols=NUMBERS,
-    excluded="inertia, heat and deformation of the bodies as a whole",
+    excluded=excluded,
+    absent=absent_effects,
     composed=composed,
     variants={"free_bearing": free, "placed_bearing": placed},
+    additions=("heated_bearing",),
     steady=steady,
     without_time=Bearing.without_time,
     in_time=in_time,

@@ -1,6 +1,11 @@
-"""The effects that models of a bearing leave out and the error laws do not count: inertia, or cavitation and slope."""
+"""The effects that models of a bearing leave out and the error laws do not count.
+
+These are heating, shear thinning, the length of ridges, and inertia or, of models with it, cavitation and slope.
+"""
 
 from roughfilm.rom.bearing.effects.inertia import inertia_obstacle
+from roughfilm.rom.bearing.effects.viscosity import viscosity_omitted
+from roughfilm.rom.bearing.effects.waves import waves_omitted
 from roughfilm.rom.bearing.effects.wide_pad import wide_pad
 from roughfilm.rom.bearing.equilibrium.expected import expected_film, expected_scene
 from roughfilm.rom.bearing.inertia import inertia
@@ -26,7 +31,7 @@ SMALLEST_PART = 1e-6
 
 
 def missing(scene: Bearing, model: Model[Bearing]) -> float:
-    """The relative change of the load by the effects among inertia and cavitation that a model leaves out.
+    """The relative change of the load by the effects among inertia, cavitation and heating that a model leaves out.
 
     It is 0 where inertia is not resolved.
     """
@@ -34,29 +39,36 @@ def missing(scene: Bearing, model: Model[Bearing]) -> float:
     if pad is None:
         return 0.0
     changes = {Effect.INERTIA: pad.by_inertia, Effect.CAVITATION: pad.by_cavitation}
-    return sum(change("load_per_width") for effect, change in changes.items() if effect not in model.keeps)
+    viscosity = viscosity_omitted(scene, model, "load_per_width")
+    of_viscosity = 0.0 if viscosity is None else viscosity.part
+    return of_viscosity + sum(
+        change("load_per_width") for effect, change in changes.items() if effect not in model.keeps
+    )
 
 
 def omission(scene: Bearing, model: Model[Bearing], quantity: str) -> Omission | None:
     """The relative change of a quantity by the effects that a model leaves out and the error laws do not count.
 
-    Those of models without inertia are inertia, of models that resolve the flow across the film cavitation, of ``film``
-    slope, and of ``film_slope`` its higher orders, which are taken to be at most the second one. None where they cannot
-    be estimated or are below ``SMALLEST_PART``.
+    Those of models with a uniform viscosity are heating and shear thinning
+    (:mod:`roughfilm.rom.bearing.effects.viscosity`), of models with these effects the length of ridges
+    (:mod:`roughfilm.rom.bearing.effects.waves`), of models without inertia inertia, of models that resolve the flow
+    across the film cavitation, of ``film`` slope, and of ``film_slope`` its higher orders, which are taken to be at
+    most the second one. None where they cannot be estimated or are below ``SMALLEST_PART``.
     """
-    if not model.keeps & {Effect.INERTIA, Effect.SLOPE}:
-        return inertia_omitted(scene, quantity)
-    parts = [
-        one
-        for one in (
-            None if Effect.INERTIA in model.keeps else inertia_omitted(scene, quantity),
-            *_of_pad(scene, model, quantity),
-        )
-        if one is not None and one.part > SMALLEST_PART
-    ]
+    measured = [one for of in (viscosity_omitted, waves_omitted) if (one := of(scene, model, quantity)) is not None]
+    inertia = None if Effect.INERTIA in model.keeps else inertia_omitted(scene, quantity)
+    if not measured and not model.keeps & {Effect.INERTIA, Effect.SLOPE}:
+        return inertia
+    others = [] if not model.keeps & {Effect.INERTIA, Effect.SLOPE} else _of_pad(scene, model, quantity)
+    parts = [one for one in (inertia, *others) if one is not None and one.part > SMALLEST_PART]
+    parts = [*measured, *parts]
     if not parts:
         return None
-    return Omission(part=sum(one.part for one in parts), reason="; ".join(one.reason for one in parts))
+    return Omission(
+        part=sum(one.part for one in parts),
+        reason="; ".join(one.reason for one in parts),
+        source=measured[0].source if measured else "",
+    )
 
 
 def _of_pad(scene: Bearing, model: Model[Bearing], quantity: str) -> list[Omission]:

@@ -9,11 +9,11 @@ from roughfilm.rom.bearing.quantities import Fields
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.solve import solve
 from roughfilm.rom.bearing.thermal.field.films import HeatedBearing, HeatedSolution
+from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
 from roughfilm.rom.bearing.thermal.field.residual import iteration
 from roughfilm.rom.bearing.thermal.isothermal import isothermal_model
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.grid import Grid
-from roughfilm.rom.cavitation.interpolation import interpolated
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.request import CheckedRequest
@@ -61,8 +61,9 @@ def stress_on(solution: Solution, stress: Array, grid: Grid) -> Array:
     """The stress of a film near a solution at its nodes, shape (nx, ny, 4), from that on another grid."""
     if stress.shape[:2] == solution.grid.shape:
         return stress
-    parts = tuple(np.ascontiguousarray(part) for part in np.moveaxis(stress, -1, 0))
-    return np.stack(interpolated(parts, grid, solution.grid, solution.problem.shape.joined), axis=-1)
+    x, y = np.meshgrid(solution.grid.x, solution.grid.y, indexing="ij")
+    parts, joined = np.moveaxis(stress, -1, 0), solution.problem.shape.joined
+    return between_nodes(parts, grid, joined, x.ravel(), y.ravel()).T.reshape(*solution.grid.shape, 4)
 
 
 def mean_gap(solution: Solution) -> Array:

@@ -66,6 +66,11 @@ def within_laws(_scene: Any, _result: Any, _quantity: str) -> str:
     return ""
 
 
+def nothing_absent(_scene: Any) -> frozenset[str]:
+    """Return no effects, for kinds whose models keep no effect that one of their scenes lacks."""
+    return frozenset()
+
+
 def nothing_composed(_scene: Any) -> tuple[str, ...]:
     """Return no lines, for kinds whose scenes are not composed of effects."""
     return ()
@@ -149,6 +154,7 @@ class Kind:
     laws : name of the error laws of its scenes in the table of laws; "" for the name of the kind.
     variants : by the name of their error laws, whether entries of a scene have these laws in place of those of the
         kind.
+    additions : names of further error laws beside those of the kind, of models that only some of its scenes have.
     ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
@@ -161,7 +167,8 @@ class Kind:
     symbols : the symbols of these numbers.
     window : window(scene), the rough surface that stands for a larger one; None if a scene has none.
     composed : composed(scene), a line on the model of each effect of a scene, with its reason.
-    excluded : the effects that no model of the kind includes, in words.
+    excluded : the effects that no model of the kind includes, in words, or excluded(scene), which returns them.
+    absent : absent(scene), the effects that the scene does not have, although models that solve it keep them.
     steady : steady(scene), the scene at the time by which models are judged, such as that of its largest load.
     without_time : without_time(scene), the scene without what changes in time, which a model solves.
     in_time : in_time(scene, within), what a motion in time means for a tolerance; None for a scene that is steady.
@@ -183,7 +190,7 @@ class Kind:
     columns: Callable[[Any], Mapping[str, Quantity | str]]
     numbers: Callable[[Any], Mapping[str, float]]
     symbols: Mapping[str, str]
-    excluded: str
+    excluded: str | Callable[[Any], str]
     others: Mapping[str, str] = field(default_factory=dict)
     reported: Mapping[str, str] = field(default_factory=dict)
     remarks: Callable[[Mapping[str, Any], Mapping[str, Quantity]], Sequence[str]] = nothing_remarked
@@ -192,12 +199,14 @@ class Kind:
     lawless: Callable[[Mapping[str, Any]], bool] = always_lawful
     laws: str = ""
     variants: Mapping[str, Callable[[Mapping[str, Any]], bool]] = field(default_factory=dict)
+    additions: tuple[str, ...] = ()
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     steady: Callable[[Any], Any] = as_given
     without_time: Callable[[Any], Any] = as_given
     in_time: Callable[[Any, float], InTime | None] = unchanging
+    absent: Callable[[Any], frozenset[str]] = nothing_absent
     omitted: Callable[[Any, Any, str], Omission | None] = nothing_omitted
     missing: Callable[[Any, Any], float] = nothing_missing
     outside_laws: Callable[[Any, Any, str], str] = within_laws
@@ -212,6 +221,10 @@ class Kind:
     def titles(self) -> Mapping[str, str]:
         """The names in a sentence of all quantities, the compared ones first."""
         return {**self.compared, **self.others}
+
+    def excluded_from(self, scene: Scene) -> str:
+        """The effects that no model of the kind includes for a scene, in words."""
+        return self.excluded if isinstance(self.excluded, str) else self.excluded(scene)
 
     def listed(self, result: Result) -> dict[str, str]:
         """The names and titles of the quantities of a result that people read, in the order in which they read them.
@@ -231,7 +244,7 @@ class Kind:
         """The kind with the compared quantities and the laws of a scene, from its entries by the names of tables."""
         own = next((name for name, belongs in self.variants.items() if belongs(entries)), "")
         if own:
-            return replace(self, laws=own, variants={}).of(entries)
+            return replace(self, laws=own, variants={}, additions=()).of(entries)
         for table, compared in self.compared_with.items():
             if entries.get(table) is not None:
                 return self._comparing(compared)
@@ -239,8 +252,13 @@ class Kind:
 
     @property
     def name_of_laws(self) -> str:
-        """The name of the error laws of its scenes in the table of laws."""
+        """The name of the error laws of its scenes in the table of laws, without additions."""
         return self.laws or self.name
+
+    @property
+    def names_of_laws(self) -> tuple[str, ...]:
+        """The names of all error laws of its scenes in the table of laws."""
+        return self.name_of_laws, *self.additions
 
     def seeking(self, quantity: str) -> "Kind":
         """The kind of scenes that ask for a quantity by a table of their own, such as the film under a load."""
@@ -293,7 +311,9 @@ def kind_of_laws(name: str) -> Kind:
         return kind_of_name(name)
     for kind in kinds().values():
         if name in kind.variants:
-            return replace(kind, laws=name, variants={})
+            return replace(kind, laws=name, variants={}, additions=())
+        if name in kind.additions:
+            return kind
     raise KeyError(name)
 
 

@@ -52,6 +52,10 @@ class Effect(StrEnum):
     """Temperature that varies across the film, from wall to wall."""
 
 
+OF_LUBRICANT = frozenset({Effect.SHEAR_THINNING, Effect.HEATING, Effect.TEMPERATURE_FIELD, Effect.TEMPERATURE_ACROSS})
+"""The effects on the viscosity, which only some lubricants have."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Applicability:
     """Whether a model applies to a scene, with the reason, or the effects that it leaves out, in words."""
@@ -345,15 +349,21 @@ def best(models: Sequence[Model]) -> Model:
 
 def best_for(scene: Scene, models: Sequence[Model]) -> Model:
     """The best model for a scene: the one that misses least of its effects, and of equal ones that which keeps most."""
-    missing = kind_of_scene(scene).missing
-    return max(models, key=lambda model: (-missing(scene, model), len(model.keeps), model.complete))
+    kind = kind_of_scene(scene)
+    absent = kind.absent(scene)
+    return max(models, key=lambda model: (-kind.missing(scene, model), len(model.keeps - absent), model.complete))
 
 
-def one_effect_away(model: Model, models: Sequence[Model]) -> tuple[tuple[Model, Effect], ...]:
-    """The models that keep all effects of ``model`` and one more, each with that effect; all are complete models."""
+def one_effect_away(
+    model: Model, models: Sequence[Model], absent: frozenset[str] = frozenset()
+) -> tuple[tuple[Model, Effect], ...]:
+    """The models that keep all effects of ``model`` and one more, each with that effect; all are complete models.
+
+    Effects that are ``absent`` from a scene do not count.
+    """
     pairs = []
     for other in models:
-        extra = other.keeps - model.keeps
-        if model.complete and other.complete and model.keeps < other.keeps and len(extra) == 1:
+        extra = other.keeps - model.keeps - absent
+        if model.complete and other.complete and model.keeps - absent < other.keeps and len(extra) == 1:
             pairs.append((other, next(iter(extra))))
     return tuple(pairs)

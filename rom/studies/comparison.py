@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from roughfilm.rom.ladder.kind import Scene, kind_of
+from roughfilm.rom.ladder.kind import Scene, kind_of, kind_of_scene
 from roughfilm.rom.ladder.model import Effect, Model, best_for, one_effect_away
 from roughfilm.rom.ladder.result import Result
 
@@ -170,11 +170,11 @@ def effects(scene: Scene, models: Sequence[Model], results: Mapping[str, Result]
     results : results by the name of the model; at least one.
     """
     solved = [model for model in models if model.name in results]
-    top = results[best_for(scene, solved).name]
+    top, absent = results[best_for(scene, solved).name], kind_of_scene(scene).absent(scene)
     return tuple(
         _difference(results[other.name], results[model.name], quantity, effect, top)
         for model in solved
-        for other, effect in one_effect_away(model, solved)
+        for other, effect in one_effect_away(model, solved, absent)
         for quantity in kind_of(top).shared(results[model.name], results[other.name], top)
     )
 

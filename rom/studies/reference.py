@@ -7,7 +7,7 @@ from enum import StrEnum
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.ladder.model import Model, best
+from roughfilm.rom.ladder.model import OF_LUBRICANT, Effect, Model, best
 from roughfilm.rom.studies.convergence import converge
 from roughfilm.rom.studies.sweep import Sweep, kind_of_sweep, loaded, relative_error
 
@@ -64,7 +64,8 @@ def reference_of(sweep: Sweep, models: Sequence[Model]) -> Reference:
 
     Its uncertainty in a case is the larger one of that by the grids of the sweep, if there are two or more, and that
     stated by the run. Where both are unknown it is the expected error by the fitted laws. If the reference is not the
-    most complete model of the kind, it is at least this expected error, which contains the effects left out.
+    most complete model of the kind, it is at least this expected error, which contains the effects left out. Models of
+    effects that only some lubricants have count if the sweep has a model of these effects.
 
     Parameters
     ----------
@@ -78,7 +79,9 @@ def reference_of(sweep: Sweep, models: Sequence[Model]) -> Reference:
     schemes = [scheme for scheme in top.schemes if any(_scheme(name) == scheme for name in own)]
     grids = [name for name in own if not schemes or _scheme(name) == schemes[0]]
     setting = max(grids, key=lambda name: np.nanmax(sweep.resolution[name], initial=0))
-    complete = top.name == best(models).name
+    tried = frozenset[Effect]().union(*(one.keeps for one in models if one.name in {_model(name) for name in counts}))
+    possible = [one for one in models if not (one.keeps & OF_LUBRICANT) - tried]
+    complete = top.name == best(possible).name
     return Reference(
         setting=setting,
         uncertainty={

@@ -58,8 +58,8 @@ NEAR_PEAK = 0.02
 LEAST_RANGE = 0.01
 """Range of the temperature, K, below which changes are over this range."""
 
-ROUND_OFF = 256 * float(np.finfo(float).eps)
-"""Round-off of the residuals over the heat that would be conducted across the film by the range of its temperature."""
+ROUND_OFF = 1024 * float(np.finfo(float).eps)
+"""Round-off of the residuals over the heat that the absolute temperature would conduct across the film."""
 
 LARGEST_RISE = 1000.0
 """Largest difference from the temperature of the supply, K, before the iteration ends."""
@@ -288,7 +288,7 @@ def _solved(
         near = linearised(film.liquid, heat, near.near(supply, heat))
         if change <= tolerance or renewed == limit:
             checked = audited(system, film.nodes, film.parts, heat, near.temperature - supply, film.walls)
-            residual, rounded = _residual(film, system, checked, near.temperature - supply)
+            residual, rounded = _residual(film, system, checked, near.temperature, supply)
             least, fall = max(RESIDUAL_TOLERANCE, rounded), LAST_FALL
             if residual <= least or renewed == limit:
                 break
@@ -366,15 +366,15 @@ def _respond(film: _Film, system: Equations, response: Array) -> float:
     return slope
 
 
-def _residual(film: _Film, system: Equations, checked: Audit, rise: Array) -> tuple[float, float]:
+def _residual(film: _Film, system: Equations, checked: Audit, temperature: Array, supply: float) -> tuple[float, float]:
     """The sum of the sizes of the residuals over the power and the heat flows in, and its round-off."""
     wrong = float(np.abs(checked.residuals).sum())
     if film.turning:
         wrong += abs(float((film.nodes.area * checked.into_sliding).sum()))
     entering = float(np.abs(system.entering * film.nodes.entering[..., None]).sum())
     walls = float((film.nodes.area * (np.abs(checked.into_sliding) + np.abs(checked.into_fixed))).sum())
-    scale = float(np.abs(_power(film, system, rise)).sum()) + entering + walls
-    rounded = ROUND_OFF * float((film.nodes.conduction * np.abs(rise).max(axis=2)).sum())
+    scale = float(np.abs(_power(film, system, temperature - supply)).sum()) + entering + walls
+    rounded = ROUND_OFF * float((film.nodes.conduction * np.abs(temperature).max(axis=2)).sum())
     return (wrong / scale, rounded / scale) if scale > 0 else (wrong, rounded)
 
 

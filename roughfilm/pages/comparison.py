@@ -96,7 +96,7 @@ def write_comparison(report: Report, path: Path) -> None:
         cards=_cards(report, scales, head.quantity),
         rows=_rows(report, scales),
         error_rows=_error_rows(report),
-        effects=[[*sorted({effect for model in _solved(report) for effect in model.keeps})], _kept(report)],
+        effects=[sorted(frozenset[str]().union(*_kept(report).values())), _kept(report)],
         changes=_changes(report, scales),
         convergence=_convergence(report, scales),
         warnings=_warnings(report),
@@ -119,7 +119,9 @@ def _solved(report: Report) -> list[Model]:
 
 
 def _kept(report: Report) -> dict[str, frozenset[str]]:
-    return {model.name: frozenset(map(str, model.keeps)) for model in _solved(report)}
+    """The effects of the scene that each solved model keeps."""
+    absent = report.kind.absent(report.scene)
+    return {model.name: frozenset(map(str, model.keeps - absent)) for model in _solved(report)}
 
 
 def _shown(report: Report, names: Sequence[str]) -> list[tuple[str, str]]:

@@ -19,6 +19,9 @@ Beside = Mapping[str, Mapping[str, Amount]]
 LAST_COLUMN = "contact_share"
 """The last column of the tables, which is not drawn."""
 
+NOT_DRAWN = ("effective_temperature",)
+"""Quantities of tables that are not drawn, as the plain film does not have them."""
+
 
 def write_page(analysis: EffectAnalysis, entries: Mapping[str, Any], out: Path) -> None:
     """Write the page and its figures; InputError if a file cannot be written."""
@@ -143,7 +146,7 @@ def _view(
     ]
     alone = [row(one.name, one.alone) for one in study.contributions]
     alone += [row(f"{effect}, not counted", amounts) for effect, amounts in beside.items()]
-    panels = [panel for panel in _panels(study, drawn, "", beside) if panel.name not in elsewhere]
+    panels = [panel for panel in _panels(study, drawn, "", beside) if panel.name not in (*elsewhere, *NOT_DRAWN)]
     return {
         "title": f"{where[:1].upper()}{where[1:]}",
         "columns": columns,

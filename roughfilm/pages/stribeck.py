@@ -38,8 +38,8 @@ COLUMNS = (
     ("film pressure, largest", "MPa", "pressure_max", 1e-6),
     ("contact pressure, largest", "MPa", "contact_pressure_max", 1e-6),
     ("cavitated", "%", "cavitated_fraction", 100.0),
-    ("film, by its heat balance", "°C", "temperature", 1.0),
-    ("lubricant, leaving", "°C", "outlet_temperature", 1.0),
+    ("temperature, film", "°C", "temperature", 1.0),
+    ("temperature, outlet", "°C", "outlet_temperature", 1.0),
 )
 """Title, unit, name and factor of each column of the table of numbers."""
 

@@ -33,13 +33,14 @@ SHOWN: Mapping[str, Shown] = {
     "friction_coefficient": Shown(title="friction coefficient", unit="10⁻³", factor=1e3),
     "inlet_flow_per_width": Shown(title="inlet flow", unit="mm²/s", factor=1e6),
     "side_leakage": Shown(title="side leakage", unit="ml/min", factor=60e6),
+    "effective_temperature": Shown(title="temperature", unit="°C"),
     "contact_share": Shown(title="carried by contact", unit="%", factor=100),
 }
 FORCES = ("load", "load_per_width", "friction", "friction_per_width")
 """The quantities whose unit follows from their size; the others have the same on every page."""
 
-AT_FILM = ("load", "friction", "inlet_flow_per_width", "side_leakage")
-UNDER_LOAD = ("film", "friction_coefficient", "inlet_flow_per_width", "side_leakage")
+AT_FILM = ("load", "friction", "inlet_flow_per_width", "side_leakage", "effective_temperature")
+UNDER_LOAD = ("film", "friction_coefficient", "inlet_flow_per_width", "side_leakage", "effective_temperature")
 
 
 def shown_quantities(study: EffectStudy, names: Sequence[str]) -> dict[str, Shown]:

@@ -83,8 +83,9 @@ def whole(name: str, result: Result) -> str:
 def included(scene: Scene, model: Model, models: Sequence[Model]) -> str:
     """The model in words, with the effects that it includes."""
     rank = ", the most complete model for this scene" if not _missing(scene, model, models) else ""
-    kept = f", which includes {listed(sorted(model.keeps))}" if model.keeps else f", {model.summary}"
-    return f"{model.name}{rank}{kept}"
+    kept = sorted(model.keeps - kind_of_scene(scene).absent(scene))
+    words = f", which includes {listed(kept)}" if kept else f", {model.summary}"
+    return f"{model.name}{rank}{words}"
 
 
 def sureness(result: Result, origin: str = STATED) -> str:
@@ -114,7 +115,7 @@ def left_out(scene: Scene, model: Model, models: Sequence[Model]) -> str:
     parts = [
         listed(missing) if missing else "",
         "" if model.complete else "the higher orders of its effects in a small parameter",
-        f"{kind.excluded}, which no model of this kind includes",
+        f"{kind.excluded_from(scene)}, which no model of this kind includes",
         omission.reason if omission else "",
     ]
     return "; ".join(filter(None, parts))
@@ -123,7 +124,8 @@ def left_out(scene: Scene, model: Model, models: Sequence[Model]) -> str:
 def _missing(scene: Scene, model: Model, models: Sequence[Model]) -> list[str]:
     """The effects that other models for a scene keep and this one leaves out."""
     applying = (one for one in models if one.applies(scene).applies)
-    return sorted(frozenset[str]().union(*(one.keeps for one in applying)) - model.keeps)
+    kept = frozenset[str]().union(*(one.keeps for one in applying))
+    return sorted(kept - model.keeps - kind_of_scene(scene).absent(scene))
 
 
 def listed(names: Sequence[str]) -> str:

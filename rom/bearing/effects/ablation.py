@@ -18,10 +18,13 @@ from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.numbers import without_texture
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Outputs
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.shear_thinning import thinning
+from roughfilm.rom.bearing.thermal.heat_balance import Heated
 from roughfilm.rom.bearing.uncertainty import IMBALANCE_FACTOR
 from roughfilm.rom.bearing.warnings import scene_warnings
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty, grid_warnings
 from roughfilm.rom.cavitation.problem import Problem
+from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 from roughfilm.rom.cavitation.solve import load_loops
 from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.homogenization.gap_factors import GapFactors
@@ -40,12 +43,14 @@ class Variant:
     sides : whether there is flow through the sides.
     ruptures : whether the film cavitates; without cavitation pressures may be negative, and the inlet is full.
     factors : whether roughness changes the flow; the contact of asperities does not depend on it.
+    heat : the temperature of the film and what its heat brings about; None where the scene gives the viscosity.
     """
 
     scene: Bearing
     sides: bool = True
     ruptures: bool = True
     factors: bool = True
+    heat: Heated | None = None
 
     @property
     def rough(self) -> bool:
@@ -80,6 +85,8 @@ class Variant:
     @property
     def outputs(self) -> Outputs:
         """The functions that evaluate its film."""
+        if self.heat is not None:
+            return self.heat.outputs
         return FILM_OUTPUTS if self.scene.asperities is None else MIXED_OUTPUTS
 
 
@@ -146,6 +153,14 @@ def _independent_of_pressure(scene: Bearing) -> Bearing:
     return scene.model_copy(update={"lubricant": scene.lubricant.model_copy(update=laws)})
 
 
+def _newtonian(scene: Bearing) -> Bearing:
+    return scene.model_copy(update={"lubricant": scene.lubricant.model_copy(update={"shear_thinning": None})})
+
+
+def _heats(scene: Bearing) -> bool:
+    return not scene.lubricant.lacking
+
+
 EFFECTS: tuple[SceneEffect, ...] = (
     SceneEffect(name="side flow", present=_has_side_flow, without=lambda one: replace(one, sides=False)),
     SceneEffect(
@@ -171,11 +186,19 @@ EFFECTS: tuple[SceneEffect, ...] = (
         present=lambda scene: scene.asperities is not None,
         without=lambda one: replace(one, scene=one.scene.model_copy(update={"asperities": None})),
     ),
+    SceneEffect(
+        name="shear thinning",
+        present=lambda scene: scene.lubricant.shear_thinning is not None,
+        without=lambda one: replace(one, scene=_newtonian(one.scene)),
+    ),
+    SceneEffect(name="heating", present=_heats, without=lambda one: replace(one, scene=one.scene.isothermal())),
 )
 """All effects in the order in which they are switched on.
 
 Without roughness asperities touch but do not change the flow. Without asperities the flow factors are those of the
-undeformed roughness, truncated where the walls overlap.
+undeformed roughness, truncated where the walls overlap. Without
+shear thinning the viscosity is that at rest. Without heating the film has the temperature of its supply,
+with it the one at which its heat is balanced (:mod:`roughfilm.rom.bearing.effects.heated`).
 """
 
 
@@ -261,7 +284,14 @@ def at_film(variant: Variant, cells: int, progress: Progress = silent) -> Varian
     problem, outputs, scene = variant.problem(), variant.outputs, variant.scene
     load_loops(problem.shape.wide)
     cpu = time.process_time()
-    solution = balance(problem, (cells, cells), ruptures=variant.ruptures, progress=progress)
+    thinned = thinning(scene)
+    solution = balance(
+        problem,
+        (cells, cells),
+        ruptures=variant.ruptures,
+        heated=None if thinned is None else thinned.film(tolerance=RESIDUAL_TOLERANCE, ruptures=variant.ruptures),
+        progress=progress,
+    )
     quantities = outputs.quantities(scene, solution)
     rough, grids = problem.shape.roughness is not None, grid_sequence(solution)
     return VariantSolution(

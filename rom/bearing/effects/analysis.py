@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 from roughfilm.contact.foundation.brief import brief
-from roughfilm.rom.bearing.effects.ablation import EFFECTS, Amount, Variant, at_film, effects_of
+from roughfilm.rom.bearing.effects.ablation import EFFECTS, Amount, Variant, VariantSolution, at_film, effects_of
 from roughfilm.rom.bearing.effects.contributions import EffectStudy, study_effects
 from roughfilm.rom.bearing.effects.explanation import EffectModel, effect_models
 from roughfilm.rom.bearing.effects.free_wall import solved_freely
+from roughfilm.rom.bearing.effects.heated import at_own_temperature, supplied, with_heat
 from roughfilm.rom.bearing.effects.inertia import (
     FULL,
     InertiaAdded,
@@ -104,19 +106,19 @@ def analyse_effects(scene: Bearing, cells: int, models: Sequence[Model], progres
         load = pressure
         loaded = study_effects(
             scene if moves else base,
-            lambda variant, inner: (
-                solved_freely(variant, cells, inner) if moves else under_load(variant, load, cells, inner)
+            lambda variant, inner: with_heat(
+                solved_freely if moves else partial(_carrying, load), variant, cells, inner
             ),
             lambda done, words: progress(0.4 + fraction * done, f"under load, {words}"),
         )
         if scene.geometry.film is None:
-            base = loaded.whole.scene
+            base = supplied(loaded.whole.scene, scene)
     at = study_effects(
         base,
-        lambda variant, inner: (solved_freely if moves else at_film)(variant, cells, inner),
+        lambda variant, inner: with_heat(solved_freely if moves else at_film, variant, cells, inner),
         lambda done, words: progress(1 - fraction + fraction * done, words),
     )
-    whole, has_inertia = Variant(scene=base), inertia_obstacle(scene) is None
+    whole, has_inertia = Variant(scene=at_own_temperature(base, at.whole)), inertia_obstacle(scene) is None
     inertia = inertia_added(whole, cells, models) if has_inertia else None
     analysis = EffectAnalysis(
         scene=scene,
@@ -127,5 +129,12 @@ def analyse_effects(scene: Bearing, cells: int, models: Sequence[Model], progres
     )
     if pressure is None or loaded is None:
         return analysis
-    there, thicker = inertia_under_load(whole, loaded.whole, pressure, cells, models) if has_inertia else (None, None)
+    if not has_inertia:
+        return replace(analysis, under_load=loaded)
+    hot = Variant(scene=at_own_temperature(base, loaded.whole))
+    there, thicker = inertia_under_load(hot, loaded.whole, pressure, cells, models)
     return replace(analysis, under_load=loaded, loaded_inertia=there, thicker=thicker)
+
+
+def _carrying(pressure: float, variant: Variant, cells: int, progress: Progress) -> VariantSolution:
+    return under_load(variant, pressure, cells, progress)

@@ -8,15 +8,21 @@ import numpy as np
 
 from roughfilm.rom.bearing.effects.ablation import effects_of
 from roughfilm.rom.bearing.effects.inertia import FIRST_ORDER, FULL, inertia_obstacle
+from roughfilm.rom.bearing.effects.viscosity import viscosity_omitted
 from roughfilm.rom.bearing.effects.wide_pad import wide_pad
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
+from roughfilm.rom.bearing.models.heat_balance import MODEL as HEAT_BALANCE
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.ladder.kind import kind_of_scene
 
 Numbers = Mapping[str, float]
 
 SMALL_REDUCED_REYNOLDS_NUMBER = 0.3
 """Reduced Reynolds number Re·h/l below which inertia is small."""
+
+HEATING = "heating"
+"""The effect whose reason depends on the lubricant too."""
 
 SLOPE = "to second order, film_slope minus film; not included in the load of the film"
 """The reason for the model of slope."""
@@ -52,8 +58,11 @@ def effect_models(scene: Bearing, *, full: bool | None = None) -> tuple[EffectMo
     models = [
         EffectModel(effect=effect.name, model=model, why=why(numbers))
         for effect in effects_of(scene)
+        if effect.name != HEATING
         for model, why in [EFFECT_MODELS[effect.name]]
     ]
+    if (heating := heating_words(scene)) is not None:
+        models.append(EffectModel(effect=HEATING, model=HEAT_BALANCE.name, why=f"{heating}{_uneven(scene)}"))
     obstacle = inertia_obstacle(scene)
     if obstacle is not None:
         return (*models, EffectModel(effect="inertia", model="none", why=f"left out: {obstacle}"))
@@ -83,9 +92,9 @@ def heating_words(scene: Bearing) -> str | None:
     viscosity, slope = (float(one[0]) for one in liquid.viscosity(np.array([liquid.temperature])))
     coefficient, heating = -slope / viscosity, numbers["heating_number"]
     if coefficient <= 0 or heating == 0:
-        return "heating: friction does not change the viscosity"
+        return "friction does not change the viscosity"
     words = (
-        f"heating: friction heats the film by about {math.log1p(heating) / coefficient:.2g} K while it passes, if the "
+        f"friction heats the film by about {math.log1p(heating) / coefficient:.2g} K while it passes, if the "
         f"walls take no heat, and its viscosity falls by {heating / (1 + heating):.0%}"
     )
     if "thermal_peclet_number" not in numbers:
@@ -170,6 +179,16 @@ def _inertia(numbers: Numbers) -> str:
     )
 
 
+def _shear_thinning(numbers: Numbers) -> str:  # noqa: ARG001
+    return "viscosities across the film by the law of the lubricant, exact for a straight gap"
+
+
+def _uneven(scene: Bearing) -> str:
+    """What the temperature over the film and across it changes, which one temperature leaves out."""
+    left_out = viscosity_omitted(scene, HEAT_BALANCE, next(iter(kind_of_scene(scene).compared)))
+    return "; one temperature for the whole film" + ("" if left_out is None else f"; not counted: {left_out.reason}")
+
+
 EFFECT_MODELS: Mapping[str, tuple[str, Callable[[Numbers], str]]] = {
     "side flow": ("reynolds", _sides),
     "texture": ("reynolds", _texture),
@@ -177,5 +196,6 @@ EFFECT_MODELS: Mapping[str, tuple[str, Callable[[Numbers], str]]] = {
     "pressure dependence": ("reynolds_cavitating", _pressure),
     "roughness": ("homogenized", _roughness),
     "asperities": ("mixed", _asperities),
+    "shear thinning": ("shear_thinning", _shear_thinning),
 }
-"""The model of each effect by the name of the effect, and the function that gives the reason."""
+"""The model of each effect but heating by the name of the effect, and the function that gives the reason."""

@@ -12,6 +12,7 @@ from roughfilm.rom.bearing.free.evaluated import evaluated
 from roughfilm.rom.bearing.free.solve import solve_free
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.shear_thinning import thinning
 from roughfilm.rom.bearing.warnings import scene_warnings
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_warnings
 from roughfilm.rom.cavitation.problem import Problem
@@ -37,7 +38,7 @@ def solved_freely(variant: Variant, cells: int, progress: Progress = silent) -> 
     def film(one: Bearing) -> Problem:
         return replace(variant, scene=one).problem(least)
 
-    cpu = time.process_time()
+    cpu, thinned = time.process_time(), thinning(scene)
     free = solve_free(
         scene,
         cells,
@@ -45,6 +46,7 @@ def solved_freely(variant: Variant, cells: int, progress: Progress = silent) -> 
         ruptures=variant.ruptures,
         contact=None if scene.asperities is None else asperities_of(scene),
         tolerance=FILM_RESIDUAL,
+        heated=None if thinned is None else thinned.placed(),
         progress=progress,
     )
     there, found = free.scenes, evaluated(free, variant.outputs)

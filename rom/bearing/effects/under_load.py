@@ -1,6 +1,7 @@
 """Variants of a bearing under a load: the film thickness at which they carry it."""
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -18,6 +19,7 @@ from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.quantities import load_of, nominal_area, scene_positions
 from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.shear_thinning import thinning
 from roughfilm.rom.cavitation.evaluation.grids import cells_of
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.network import State
@@ -81,6 +83,14 @@ class VariantFilm:
         return MixedFilm(scene=self.scene, asperities=asperities_of(self.scene), cells=self.cells)
 
     @cached_property
+    def thinned(self) -> Callable[[Solution], Solution]:
+        """thinned(solution), the film with the viscosities of its shear; the film itself of a Newtonian lubricant."""
+        coupling = thinning(self.scene)
+        if coupling is None:
+            return lambda solution: solution
+        return coupling.film(tolerance=FILM_RESIDUAL, ruptures=self.variant.ruptures)
+
+    @cached_property
     def area(self) -> float:
         """The nominal area, m² (m if infinitely wide)."""
         return nominal_area(self.scene, self.grid)
@@ -127,7 +137,8 @@ class VariantFilm:
         scene = self.scene.at_speed(speed).at_film(film)
         variant = replace(self.variant, scene=scene)
         problem, cells = variant.problem(self.min_gap), (self.cells, self.cells)
-        solution = solve(problem, cells, start=start, tolerance=FILM_RESIDUAL, ruptures=variant.ruptures)
+        first = solve(problem, cells, start=start, tolerance=FILM_RESIDUAL, ruptures=variant.ruptures)
+        solution = self.thinned(first)
         force = solution.grid.areas * (solution.state.pressure + scene.lubricant.cavitation_pressure)
         if self.mixed is not None:
             force = force + asperity_load(solution.problem.shape, solution.grid, self.mixed.asperities).force

@@ -1,10 +1,11 @@
 """The changes of an infinitely wide pad by inertia, slope and cavitation, each from two models on one grid."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 
 from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.rom.bearing.keyed import KeyedScene, keyed
 from roughfilm.rom.bearing.models.film import MODEL as FILM
 from roughfilm.rom.bearing.models.film_slope import MODEL as FILM_SLOPE
 from roughfilm.rom.bearing.models.reynolds import MODEL as REYNOLDS
@@ -88,7 +89,7 @@ class WidePad:
 
 def wide_pad(scene: Bearing) -> WidePad | None:
     """The quantities of an infinitely wide pad with and without effects; None where inertia is not resolved."""
-    return _pad(_question(scene))
+    return _pad(keyed(scene))
 
 
 def wide_films(scene: Bearing) -> tuple[WideFilm, ...]:
@@ -100,24 +101,12 @@ def wide_films(scene: Bearing) -> tuple[WideFilm, ...]:
     if pad is None or pad.ruptures:
         return ()
     default = FILM.resolution_of(scene)
-    films = [_film(_question(scene), max(MIN_CELLS, round(part * default))) for part in reversed(GRIDS)]
+    films = [_film(keyed(scene), max(MIN_CELLS, round(part * default))) for part in reversed(GRIDS)]
     return () if films[0] is None else tuple(film for film in films if film is not None)
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Question:
-    """A scene, which is compared by its entries."""
-
-    entries: str
-    scene: Bearing = field(compare=False)
-
-
-def _question(scene: Bearing) -> _Question:
-    return _Question(entries=scene.model_dump_json(exclude_none=True, exclude={"name"}), scene=scene)
-
-
 @lru_cache(maxsize=16)
-def _pad(question: _Question) -> WidePad | None:
+def _pad(question: KeyedScene) -> WidePad | None:
     scene = question.scene
     if not FILM.applies(scene).applies:
         return None
@@ -135,7 +124,7 @@ def _pad(question: _Question) -> WidePad | None:
 
 
 @lru_cache(maxsize=16)
-def _film(question: _Question, cells: int) -> WideFilm | None:
+def _film(question: KeyedScene, cells: int) -> WideFilm | None:
     scene, request = question.scene, Request(resolution=cells)
     try:
         return WideFilm(

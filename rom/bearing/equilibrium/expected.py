@@ -1,7 +1,7 @@
 """The film that a bearing is expected to have under its load, from a few films on a coarse grid."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -10,6 +10,7 @@ import scipy
 from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
+from roughfilm.rom.bearing.keyed import KeyedScene, keyed
 from roughfilm.rom.bearing.scene import Bearing
 
 REFERENCE = 1e-4
@@ -76,16 +77,7 @@ def expected_film(scene: Bearing) -> ExpectedFilm:
 
     Where asperities touch, the film is at least twice the rms height.
     """
-    key = scene.model_dump_json(exclude_none=True, exclude={"name"})
-    return _expected(_Question(entries=key, scene=scene))
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Question:
-    """A scene, which is compared by its entries."""
-
-    entries: str
-    scene: Bearing = field(compare=False)
+    return _expected(keyed(scene))
 
 
 _estimate = deferred("rom.bearing.equilibrium.estimate", "estimate")
@@ -93,7 +85,7 @@ _expected_place = deferred("rom.bearing.free.solve", "expected_place")
 
 
 @lru_cache(maxsize=64)
-def _expected(question: _Question) -> ExpectedFilm:
+def _expected(question: KeyedScene) -> ExpectedFilm:
     scene = question.scene
     if isinstance(scene.geometry, MovingWall):
         place = _expected_place(scene)

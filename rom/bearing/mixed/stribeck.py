@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from math import inf
+from math import inf, isclose
 
 import numpy as np
 
@@ -43,6 +43,9 @@ MAX_TOLERANCE = 1e-2
 
 UNCERTAINTY_SPEEDS = 5
 """Number of speeds at which the uncertainty is estimated with half as many cells, besides that of the scene."""
+
+SAME_SPEED = 1e-9
+"""Relative difference up to which a speed of a curve is that of the scene."""
 
 LIFT_OFF_SPEED_RATIO = 100.0
 """Guess of the lift-off speed over the speed at which 6ηuL/α² equals the load, if no requested speed lifts the wall."""
@@ -196,7 +199,7 @@ def stribeck(
     done = {(point.pressure, point.speed): point for point in known}
     coarse = search.coarser()
     estimated = {ordered[i] for i in np.linspace(0, len(ordered) - 1, UNCERTAINTY_SPEEDS).round().astype(int)}
-    estimated |= {abs(scene.motion.speed)}
+    estimated |= {speed for speed in ordered if isclose(speed, abs(scene.motion.speed), rel_tol=SAME_SPEED)}
     curves: dict[float, list[StribeckPoint]] = {pressure: [] for pressure in sorted(pressures)}
     refused: dict[float, InputError | ConvergenceError] = {}
     load_loops(scene.wide)

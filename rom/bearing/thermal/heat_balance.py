@@ -1,9 +1,10 @@
 """The film at the one temperature at which its heat is balanced."""
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import Protocol, TypeVar
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.timing import working_time
@@ -42,6 +43,9 @@ REFINED = 4
 
 EFFECTIVE = "effective_temperature"
 
+FilmT = TypeVar("FilmT")
+FoundT = TypeVar("FoundT", covariant=True)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Sensitivity:
@@ -56,6 +60,10 @@ class Sensitivity:
 
     slope: float = 0.0
     changes: Mapping[str, float] = field(default_factory=dict)
+
+
+INSENSITIVE = Sensitivity()
+"""No changes, which leave a film at the temperature at which it is solved."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +84,7 @@ class Heated:
     base: Outputs
     liquid: Liquid
     temperature: float
-    sensitivity: Sensitivity = Sensitivity()
+    sensitivity: Sensitivity = INSENSITIVE
 
     @property
     def outputs(self) -> Outputs:
@@ -147,7 +155,8 @@ def solve_heat_balance(solver: Model[Bearing], scene: Bearing, request: CheckedR
 
     The temperature is sought on a coarse grid, extrapolated from there and from a grid between to the finest one, and
     corrected there until the film has the temperature that its heat brings about to ``TEMPERATURE_TOLERANCE``. A
-    lubricant whose viscosity does not change has the film of the isothermal model to the last bit.
+    lubricant whose viscosity does not change has the film of the isothermal model to the last bit. One that thins with
+    shear has the film of ``shear_thinning`` at that temperature.
 
     The uncertainty of a quantity is that of the isothermal model, where the heat is balanced on each grid at a
     temperature of its own. It contains no error of the model, which takes one temperature for the whole film.
@@ -165,46 +174,33 @@ def solve_heat_balance(solver: Model[Bearing], scene: Bearing, request: CheckedR
         If the film, its load or its temperature does not converge.
     """
     wall, cpu = time.perf_counter(), working_time()
-    liquid, sizes = scene.lubricant.liquid, _sizes(solver, scene, request.resolution)
+    liquid = scene.lubricant.liquid
+    sizes = grids(solver.offered(scene).series, request.resolution)
 
-    def film(temperature: float, cells: int, sensitivity: Sensitivity = Sensitivity()) -> Result:
-        model, heated_scene = isothermal_model(scene), scene.at_temperature(temperature)
+    def film(temperature: float, cells: int, sensitivity: Sensitivity = INSENSITIVE) -> Result:
+        model = isothermal_model(scene)
         heated = Heated(base=model.outputs, liquid=liquid, temperature=temperature, sensitivity=sensitivity)
+        hot = scene.at_temperature(temperature)
         return solve(
             solver,
-            heated_scene,
+            hot,
             replace(request, resolution=cells),
             partial(_within, progress, cells / request.resolution),
             film=model.film,
             ruptures=True,
             outputs=heated.outputs,
-            heat=thinning(heated_scene),
+            heat=thinning(hot),
             **model.more,
         )
 
-    coarse, guess, sensitivity = _on_coarse_grid(film, scene, sizes)
-    guesses = [(coarse, guess)]
-    if request.resolution >= REFINED * coarse:
-        middle = request.resolution // 2
-        guesses.append((middle, _effective(film(guess, middle, sensitivity))))
-    temperature, films = _extrapolated(guesses, request.resolution), 0
-    while True:
-        result, films = film(temperature, request.resolution, sensitivity), films + 1
-        error = abs(_effective(result) - temperature)
-        if error <= TEMPERATURE_TOLERANCE:
-            break
-        if films == MAX_FINE_FILMS:
-            raise ConvergenceError(
-                f"heat_balance: the temperature still changes by {error:.2g} K after {films} films; take another "
-                "resolution"
-            )
-        temperature = _effective(result)
+    result, error, films = balanced_film(film, _values, scene, sizes)
     numerics = replace(
         result.numerics,
         cpu_s=working_time() - cpu,
         wall_s=time.perf_counter() - wall,
         details={**result.numerics.details, "heat_balance": error, "heated_films": float(films)},
     )
+    temperature = _values(result)[EFFECTIVE] + ZERO_CELSIUS
     beyond = scene.lubricant.temperature_warnings(temperature, temperature)
     return replace(
         result,
@@ -219,42 +215,92 @@ def _within(progress: Progress, share: float, fraction: float, words: str) -> No
     progress(share * fraction, words)
 
 
-def _effective(result: Result) -> float:
-    return result.quantities[EFFECTIVE].value + ZERO_CELSIUS
+def _values(result: Result) -> dict[str, float]:
+    return {name: quantity.value for name, quantity in result.quantities.items()}
 
 
-def _effective_of(film: Callable[..., Result], cells: int, temperature: float) -> float:
-    return _effective(film(temperature, cells))
-
-
-def _sizes(solver: Model[Bearing], scene: Bearing, cells: int) -> list[int]:
+def grids(series: Sequence[int], cells: int) -> list[int]:
     """Numbers of cells from the coarse grid to the finest one."""
-    return [size for size in solver.offered(scene).series if size < cells] + [cells]
+    return [size for size in series if size < cells] + [cells]
 
 
-def _on_coarse_grid(film: Callable[..., Result], scene: Bearing, sizes: list[int]) -> tuple[int, float, Sensitivity]:
+class FilmAt(Protocol[FoundT]):
+    """The film at a temperature, K, on a grid of so many cells, evaluated by :class:`Heated`."""
+
+    def __call__(self, temperature: float, cells: int, sensitivity: Sensitivity = ..., /) -> FoundT:
+        """Solve the film."""
+        ...
+
+
+def balanced_film(
+    film: FilmAt[FilmT], values: Callable[[FilmT], Mapping[str, float]], scene: Bearing, sizes: Sequence[int]
+) -> tuple[FilmT, float, int]:
+    """The film on the finest grid at the temperature at which its heat is balanced.
+
+    Parameters
+    ----------
+    film : film(temperature, cells, sensitivity), the film at a temperature, K.
+    values : values(film), its quantities, among them ``effective_temperature`` in °C.
+    scene : the bearing.
+    sizes : numbers of cells from the coarse grid to the finest one.
+
+    Returns
+    -------
+    film, error of its temperature, K, and number of films on the finest grid.
+
+    Raises
+    ------
+    InputError
+        If nothing takes the heat away, or friction heats the film without end.
+    ConvergenceError
+        If a film or its temperature does not converge.
+    """
+
+    def effective(temperature: float, cells: int, sensitivity: Sensitivity = INSENSITIVE) -> float:
+        return values(film(temperature, cells, sensitivity))[EFFECTIVE] + ZERO_CELSIUS
+
+    finest = sizes[-1]
+    coarse, guess, sensitivity = _on_coarse_grid(film, values, scene, sizes)
+    guesses = [(coarse, guess)]
+    if finest >= REFINED * coarse:
+        guesses.append((finest // 2, effective(guess, finest // 2, sensitivity)))
+    temperature, films = _extrapolated(guesses, finest), 0
+    while True:
+        found, films = film(temperature, finest, sensitivity), films + 1
+        brought_about = values(found)[EFFECTIVE] + ZERO_CELSIUS
+        error = abs(brought_about - temperature)
+        if error <= TEMPERATURE_TOLERANCE:
+            return found, error, films
+        if films == MAX_FINE_FILMS:
+            raise ConvergenceError(
+                f"heat_balance: the temperature still changes by {error:.2g} K after {films} films; take another "
+                "resolution"
+            )
+        temperature = brought_about
+
+
+def _on_coarse_grid(
+    film: FilmAt[FilmT], values: Callable[[FilmT], Mapping[str, float]], scene: Bearing, sizes: Sequence[int]
+) -> tuple[int, float, Sensitivity]:
     """The cells of the coarsest grid that has a film, its temperature, K, and the sensitivity there."""
     supplied = scene.lubricant.liquid.temperature
+
+    def effective(cells: int, temperature: float) -> float:
+        return values(film(temperature, cells))[EFFECTIVE] + ZERO_CELSIUS
+
     for cells in sizes:
         last = cells == sizes[-1]
         tolerance = TEMPERATURE_TOLERANCE / 4 if last else COARSE_TOLERANCE
         try:
             found = balanced(
-                partial(_effective_of, film, cells),
-                supplied,
-                coldest=coldest(scene, supplied),
-                tolerance=tolerance,
+                partial(effective, cells), supplied, coldest=coldest(scene, supplied), tolerance=tolerance
             ).temperature
-            one, other = film(found, cells), film(found + DIFFERENCE, cells)
+            one, other = values(film(found, cells)), values(film(found + DIFFERENCE, cells))
         except (InputError, ConvergenceError):
             if last:
                 raise
             continue
-        changes = {
-            name: (other.quantities[name].value - quantity.value) / DIFFERENCE
-            for name, quantity in one.quantities.items()
-            if name in other.quantities
-        }
+        changes = {name: (other[name] - value) / DIFFERENCE for name, value in one.items() if name in other}
         slope = changes.pop(EFFECTIVE)
         return cells, found, Sensitivity(slope=slope, changes=changes)
     raise AssertionError(sizes)

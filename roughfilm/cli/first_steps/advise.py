@@ -95,7 +95,7 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     for row, one in zip(table.rows, judged, strict=True):
         row.style = "green" if one.verdict is Verdict.CHOSEN else "default"
     yield table
-    yield from (f"{one.model}: {one.verdict}: {one.why}" for one in advice.considered)
+    yield from _verdicts(advice)
     yield from (f"  {line}" for line in kind.composed(scene))
     applying = [one for one in advice.considered if one.verdict is not Verdict.DOES_NOT_APPLY]
     measured = (omission for omission in advice.omitted.values() if omission.source != BY_LAWS)
@@ -112,6 +112,14 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     origin = f"{fit['scenes']} random scenes, {laws['command']}" if fit else "none are fitted to such scenes yet"
     yield f"{advice.spent_cpu_s:.2g} CPU s spent on the advice; laws: {origin}"
     yield f"{scene.name}: {in_one_line(advice)}"
+
+
+def _verdicts(advice: Advice) -> Iterator[str]:
+    """The verdict on each model with its reason; models with the same ones share a line."""
+    models: dict[str, list[str]] = {}
+    for one in advice.considered:
+        models.setdefault(f"{one.verdict}: {one.why}", []).append(one.model)
+    yield from (f"{', '.join(names)}: {why}" for why, names in models.items())
 
 
 def in_one_line(advice: Advice) -> str:

@@ -7,7 +7,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Un
 from roughfilm.ladder import find, models
 from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.ladder.kind import Scene, kind_of_scene
-from roughfilm.rom.ladder.model import Model, best
+from roughfilm.rom.ladder.model import Model, best_for
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from scripts.studies.coverage.store import Advised
@@ -26,7 +26,7 @@ def advised(scene: Scene) -> tuple[Advised, ...]:
         return solved[key]
 
     ladder = models(scene.kind)
-    reference = best([model for model in ladder if model.applies(scene).applies])
+    reference = best_for(scene, [model for model in ladder if model.applies(scene).applies])
     best_cpu_s = reference.cost(scene, reference.resolution_of(scene))
 
     def one(quantity: str, within: float) -> Advised:

@@ -8,7 +8,7 @@ from functools import cache, partial
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.ladder import models
 from roughfilm.rom.ladder.kind import Scene
-from roughfilm.rom.ladder.model import Model, best
+from roughfilm.rom.ladder.model import Model, best_for
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.studies.convergence import converge
@@ -103,7 +103,7 @@ def _truth(scene: Scene, solve: Solver, method: str) -> Truth:
     own = {model.name: extrapolated(scene, model, solve) for model in applying}
     if not any(own.values()):
         raise ConvergenceError("no model solves the scene on finer grids")
-    top = own[best(applying).name]
+    top = own[best_for(scene, applying).name]
     return Truth(
         values={name: value for name, (value, _) in top.items()},
         uncertainty={name: bar for name, (_, bar) in top.items()},

@@ -1,6 +1,7 @@
 """Count how often the uncertainties of films whose walls move hold: python -m scripts.studies.motion --out OUT.
 
-Random bearings are solved on a coarse grid, by `solve`, `dynamics` and `march`, and on finer ones.
+Random bearings are solved on a coarse grid, by `solve`, `dynamics` and `march`, and on finer ones. Films with
+temperatures are counted by `--commands heat_balance,adiabatic,across`.
 """
 
 from collections.abc import Sequence
@@ -19,15 +20,22 @@ from roughfilm.figures.base import new_figure
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
 from scripts.studies.coverage.judge import FAR, GOAL, Coverage, Finding, coverage
-from scripts.studies.motion.counting import DYNAMICS, MARCH, SOLVE, Counted, count_scene, counted_of
-from scripts.studies.motion.random_scenes import IN_TIME, KINDS
+from scripts.studies.motion.counting import DYNAMICS, MARCH, SOLVE, THERMAL, Counted, count_scene, counted_of
+from scripts.studies.motion.random_scenes import HEATED, IN_TIME, KINDS
 from scripts.studies.study import Out, counted, kept, publish
 
 ALL = "all"
 """Kind of the rows over all kinds."""
 
-COMMANDS = (SOLVE, MARCH)
-"""What a scene is asked; the equilibrium comes with its stiffness and damping."""
+USUAL = (SOLVE, MARCH)
+"""What a scene is asked by default; the equilibrium comes with its stiffness and damping."""
+
+COMMANDS = (*USUAL, *THERMAL)
+"""All that a scene can be asked; a model with temperatures solves another scene, whose lubricant heats."""
+
+
+KINDS_OF = {SOLVE: tuple(KINDS), MARCH: IN_TIME, **dict.fromkeys(THERMAL, tuple(HEATED))}
+"""Kinds of scenes by what they are asked."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +55,9 @@ def command(
     scenes: Annotated[int, typer.Option(min=1, help="Random scenes of each kind.")] = 16,
     first: Annotated[int, typer.Option(min=0, help="First seed.")] = 0,
     kinds: Annotated[str | None, typer.Option(help="Kinds, joined by commas (default: all).")] = None,
-    commands: Annotated[str | None, typer.Option(help="solve, march, or both, joined by a comma (default).")] = None,
+    commands: Annotated[
+        str | None, typer.Option(help=f"Of {', '.join(COMMANDS)}, joined by commas (default: solve,march).")
+    ] = None,
     cells: Annotated[int, typer.Option(min=32, help="Cells along the film of an equilibrium.")] = 48,
     march_cells: Annotated[int, typer.Option(min=16, help="Cells along the film of a march.")] = 32,
     as_json: AsJson = False,
@@ -57,15 +67,17 @@ def command(
     work = [
         (kind, seed, asked)
         for asked, kind, seed in product(
-            chosen("commands", commands, COMMANDS), chosen("kinds", kinds, tuple(KINDS)), range(first, first + scenes)
+            chosen("commands", commands or ",".join(USUAL), COMMANDS),
+            chosen("kinds", kinds, tuple(HEATED)),
+            range(first, first + scenes),
         )
-        if asked == SOLVE or kind in IN_TIME
+        if kind in KINDS_OF[asked]
     ]
     results = []
     with counted(len(work)) as advance:
         for kind, seed, asked in work:
             advance(f"{asked} {kind} {seed}")
-            grid = cells if asked == SOLVE else march_cells
+            grid = march_cells if asked == MARCH else cells
             results.append(counted_of(count(out / "scenes", kind, seed, asked, grid)))
     found = [one for result in results for one in result.found]
     rows = by_quantity(found)
@@ -84,7 +96,7 @@ def command(
                 if one.refused
             ],
             "misses": misses,
-            "cells": {SOLVE: cells, DYNAMICS: cells, MARCH: march_cells},
+            "cells": {**dict.fromkeys((SOLVE, DYNAMICS, *THERMAL), cells), MARCH: march_cells},
             "provenance": circumstances(),
         },
         tables=[table(rows), *(f"missed: {miss(one)}" for one in misses), *map(words, tallies)],

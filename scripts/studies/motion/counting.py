@@ -7,11 +7,12 @@ from typing import Any
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.march.solve import ERROR
 from scripts.studies.coverage.judge import UNCERTAINTY, Finding
-from scripts.studies.motion.random_scenes import drawn, drawn_in_time
+from scripts.studies.motion.random_scenes import drawn, drawn_in_time, drawn_with_heat
 from scripts.studies.motion.solving import (
     Stated,
     Truth,
     dynamics_answer,
+    heated_truth,
     march_answer,
     march_truth,
     nearest,
@@ -21,6 +22,9 @@ from scripts.studies.motion.solving import (
 
 SOLVE, DYNAMICS, MARCH = "solve", "dynamics", "march"
 """The commands that are judged."""
+
+THERMAL = ("heat_balance", "adiabatic", "across")
+"""Models with temperatures, each judged as a command of its own."""
 
 ROUND_OFF = 1e-9
 """Relative difference up to which an answer is the truth: residuals of films and forces."""
@@ -39,7 +43,7 @@ class Counted:
     Attributes
     ----------
     kind, seed : the scene.
-    command : "solve", which stands for the equilibrium with its stiffness and damping, or "march".
+    command : "solve", which stands for the equilibrium with its stiffness and damping, "march", or a thermal model.
     found : every judged number.
     silent : numbers without an uncertainty, by the command.
     refused : why there is no answer or no truth; empty if there are both.
@@ -60,11 +64,14 @@ def count_scene(kind: str, seed: int, command: str, cells: int) -> dict[str, Any
 
     Parameters
     ----------
-    command : ``SOLVE`` for the equilibrium and its stiffness and damping, or ``MARCH``.
+    command : ``SOLVE`` for the equilibrium and its stiffness and damping, ``MARCH``, or a model of ``THERMAL``.
     cells : cells along the film of the answer; there are half as many across.
     """
     try:
-        answers = _marched(kind, seed, cells) if command == MARCH else _settled(kind, seed, cells)
+        if command in THERMAL:
+            answers = _heated(kind, seed, command, cells)
+        else:
+            answers = _marched(kind, seed, cells) if command == MARCH else _settled(kind, seed, cells)
     except (InputError, ConvergenceError) as error:
         return asdict(Counted(kind=kind, seed=seed, command=command, silent={}, refused=str(error)))
     return asdict(
@@ -101,6 +108,11 @@ def _settled(kind: str, seed: int, cells: int) -> dict[str, tuple[Stated, Truth]
 def _marched(kind: str, seed: int, cells: int) -> dict[str, tuple[Stated, Truth]]:
     scene, end = drawn_in_time(kind, seed)
     return {MARCH: (march_answer(scene, end, cells), march_truth(scene, end, cells, ERROR))}
+
+
+def _heated(kind: str, seed: int, model: str, cells: int) -> dict[str, tuple[Stated, Truth]]:
+    scene = drawn_with_heat(kind, seed)
+    return {model: (solve_answer(scene, cells, model), heated_truth(scene, cells, model))}
 
 
 def judged(kind: str, seed: int, command: str, stated: Stated, truth: Truth) -> list[Finding]:

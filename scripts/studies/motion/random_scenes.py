@@ -34,6 +34,43 @@ def drawn(kind: str, seed: int) -> Bearing:
     return _bearing(KINDS[kind](_generator(kind, seed)))
 
 
+def drawn_with_heat(kind: str, seed: int) -> Bearing:
+    """Return the random bearing of a kind and a seed whose lubricant heats, between random walls.
+
+    Parameters
+    ----------
+    kind : one of ``HEATED``.
+
+    Raises
+    ------
+    InputError
+        If the entries that were drawn do not make a bearing.
+    """
+    rng = _generator(kind, seed)
+    entries = HEATED[kind](rng)
+    lubricant = entries["lubricant"] | {
+        "density": "870 kg/m^3",
+        "temperature": "40 degC",
+        "heat_capacity": "1950 J/(kg*K)",
+        "conductivity": "0.14 W/(m*K)",
+        "thermoviscosity": {
+            "law": "exponential",
+            "temperature_coefficient": with_unit(between(rng, 0.01, 0.06), "1/K"),
+        },
+    }
+    given = {"kind": "temperature", "temperature": with_unit(float(rng.uniform(30, 60)), "degC")}
+    conducting = {"kind": "conducting", "heat_transfer": with_unit(between(rng, 100, 10000), "W/(m^2*K)")}
+    shaft = entries["geometry"]["shape"] in ("lobes", "journal")
+    sliding = ["adiabatic", given, "turning"] if shaft else ["adiabatic", given]
+    fixed = ["adiabatic", given, conducting]
+    heat = {
+        "sliding_wall": sliding[int(rng.integers(len(sliding)))],
+        "fixed_wall": fixed[int(rng.integers(len(fixed)))],
+        "carried_over": 1.0 if rng.uniform() < 0.5 else float(rng.uniform(0.5, 1)),
+    }
+    return _bearing(entries | {"lubricant": lubricant, "heat": heat})
+
+
 def drawn_in_time(kind: str, seed: int) -> tuple[Bearing, float]:
     """Return the random bearing of a kind and a seed with a motion, and the time, s, at which its march ends.
 
@@ -255,6 +292,29 @@ def _pivoted(rng: Generator, geometry: Entries, length: float, width: float) -> 
     }
 
 
+def given_pad(rng: Generator) -> Entries:
+    """Return a linear pad at a given film, between 2·10⁻⁴ and 10⁻³ of its length."""
+    film = PAD * between(rng, 2e-4, 1e-3)
+    lengths = {"length": PAD, "width": PAD * between(rng, 0.4, 2), "film": film, "rise": film * rng.uniform(0.3, 2)}
+    return {
+        "geometry": {"shape": "linear", **{name: with_unit(float(one), "m") for name, one in lengths.items()}},
+        "lubricant": {"viscosity": with_unit(VISCOSITY, "Pa*s")},
+        "motion": {"speed": with_unit(float(rng.uniform(3, 30)), "m/s")},
+    }
+
+
+def given_journal(rng: Generator) -> Entries:
+    """Return a full bore with an inlet at its widest gap, at a given eccentricity."""
+    lengths = {"radius": RADIUS, "clearance": RADIUS * between(rng, 5e-4, 2e-3)}
+    lengths["width"] = 2 * RADIUS * between(rng, 0.3, 1.2)
+    geometry = {name: with_unit(float(one), "m") for name, one in lengths.items()}
+    return {
+        "geometry": {"shape": "journal", **geometry, "eccentricity": float(rng.uniform(0.1, 0.9))},
+        "lubricant": {"viscosity": with_unit(VISCOSITY, "Pa*s")},
+        "motion": {"speed": with_unit(float(rng.uniform(5, 30)), "m/s")},
+    }
+
+
 KINDS: Mapping[str, Callable[[Generator], Entries]] = {
     "journal": journal,
     "arc": arc,
@@ -267,3 +327,10 @@ KINDS: Mapping[str, Callable[[Generator], Entries]] = {
 
 IN_TIME = ("journal", "arc", "lobes", "pad", "sector")
 """Kinds that are marched."""
+
+HEATED: Mapping[str, Callable[[Generator], Entries]] = {
+    **KINDS,
+    "given_pad": given_pad,
+    "given_journal": given_journal,
+}
+"""Kinds of bearings that are solved with temperatures."""

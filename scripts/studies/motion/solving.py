@@ -29,6 +29,9 @@ MODEL = "reynolds_cavitating"
 TOLERANCE = 1e-10
 """Residual at which the films of a truth are solved."""
 
+HEATED_RATIOS = ((2.0, 2.0), (4.0, 4.0))
+"""The same as ``RATIOS`` of a film with temperatures."""
+
 RATIOS = ((2.0, 2.0), (2.7, 4.0), (4.0, 4.0))
 """Cells along and across of the grids of a truth over those of the answer; the second one shares few of its nodes."""
 
@@ -63,9 +66,9 @@ class Truth:
     uncertainty: Values
 
 
-def solve_answer(scene: Bearing, cells: int) -> Stated:
-    """Return the equilibrium of a bearing on a grid, as ``roughfilm solve`` states it."""
-    result = find("bearing", MODEL).solve(scene, Request(resolution=cells))
+def solve_answer(scene: Bearing, cells: int, model: str = MODEL) -> Stated:
+    """Return the film of a bearing on a grid, as ``roughfilm solve`` states it."""
+    result = find("bearing", model).solve(scene, Request(resolution=cells))
     return Stated(
         values={name: one.value for name, one in result.quantities.items()},
         uncertainty={name: one.uncertainty for name, one in result.quantities.items() if one.uncertainty is not None},
@@ -103,6 +106,18 @@ def truths(scene: Bearing, cells: int) -> tuple[Truth, Truth]:
     rotation = rotation_of(scene, scene.motion.speed)
     numbers = [_finite(finished([point], rotation)[0]) for point in points]
     return extrapolated(statics, RATIOS), extrapolated(numbers, RATIOS)
+
+
+def heated_truth(scene: Bearing, cells: int, model: str) -> Truth:
+    """Return the truth of a film with temperatures from grids finer than ``cells``.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        If the film or its temperatures do not converge on one of the grids.
+    """
+    levels = [solve_answer(scene, round(along * cells), model).values for along, _ in HEATED_RATIOS]
+    return extrapolated(levels, HEATED_RATIOS)
 
 
 def _settled(scene: Bearing, cells: int) -> Iterator[tuple[FreeFilm, Instant]]:

@@ -15,6 +15,7 @@ from roughfilm.rom.bearing.thermal.field.mixing import (
     at_mixture,
     new_lubricant,
     returning,
+    seen_from_inside,
     temperature_of,
 )
 from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
@@ -96,7 +97,7 @@ class BetweenWalls:
         return HeatedFilm(
             grid=solution.grid,
             temperature=found.mean,
-            viscosities=found.viscosities,
+            viscosities=seen_from_inside(found.viscosities, solution),
             highest=found.largest,
             place=found.place[:2],
             inlet=mixture,

@@ -16,6 +16,7 @@ from roughfilm.rom.bearing.thermal.field.mixing import (
     new_lubricant,
     replaced,
     returning,
+    seen_from_inside,
 )
 from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
@@ -81,6 +82,7 @@ class AdiabaticWalls:
                 once=before is not None and solution.state.pressure.size > COARSE_NODES,
             )
         viscosities, stress = with_thinning(scene, solution, found, near)
+        viscosities = seen_from_inside(viscosities, solution)
         generated = float(found.dissipation.sum())
         return HeatedFilm(
             grid=solution.grid,

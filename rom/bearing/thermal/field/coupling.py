@@ -7,7 +7,7 @@ from typing import Any, Generic, Protocol, TypeVar
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.thermal.field.nodal import logarithms, own_logarithms
 from roughfilm.rom.cavitation.fluid import Viscosities
@@ -43,6 +43,9 @@ SINGULAR = 1e-12
 
 HOTTEST = 773.15
 """Temperature above which no lubricant stays liquid, K: the iteration ends as a thermal runaway."""
+
+MAX_HALVINGS = 4
+"""Largest number of times that a step to a film that does not exist is halved."""
 
 RUNAWAY = "lower the speed, the load or the viscosity, or cool the film by more supplied lubricant or its walls"
 """Remedy of a thermal runaway."""
@@ -147,28 +150,58 @@ def coupled(
     hottest: list[float] = []
     film, heated = _with_temperatures(film, again, heating, near)
     for _ in range(MAX_FILMS):
-        solution = film.solution
-        if changes:
-            heated = heating(solution, heated)
-        used, following = own_logarithms(solution), logarithms(heated.viscosities)
-        changes.append(_mean_size(following - used, solution.grid.areas))
-        largest = _size(following - used)
+        used, following = own_logarithms(film.solution), logarithms(heated.viscosities)
+        areas, rest = film.solution.grid.areas, following - used
+        changes.append(_mean_size(rest, areas))
         hottest.append(float(heated.temperature.max()))
         if not hottest[-1] <= HOTTEST:
-            raise ConvergenceError(_runaway(hottest), outcome=Outcome.DIVERGED, iterations=len(changes))
-        small = changes[-1] <= tolerance and largest <= LARGEST_OVER_MEAN * tolerance
-        if small or _stalls(changes):
-            if heated.settled:
-                return Coupled(film=film, heated=heated, changes=tuple(changes), largest=largest)
-        else:
-            step = memory.following(used, following, solution.grid.areas) if heated.settled else following
-            film = again(film, step)
+            raise _runaway(hottest)
+        small = changes[-1] <= tolerance and _size(rest) <= LARGEST_OVER_MEAN * tolerance
+        if (small or _stalls(changes)) and heated.settled:
+            return Coupled(film=film, heated=heated, changes=tuple(changes), largest=_size(rest))
+        if small:
+            heated = heating(film.solution, heated)
+            continue
+        step = memory.following(used, following, areas) - used if heated.settled else rest
+        film, heated = _stepped(film, heated, again, heating, (used, step), hottest)
     raise ConvergenceError(
         f"temperature: the viscosity of the film and that at its temperatures differ by {changes[-1]:.1e} after "
         f"{MAX_FILMS} films, above the tolerance of {tolerance:.1e}; take more cells, or {RUNAWAY}",
         outcome=Outcome.STALLED,
         iterations=MAX_FILMS,
     )
+
+
+def _stepped(
+    film: FilmT,
+    heated: HeatedT,
+    again: Callable[[FilmT, Array], FilmT],
+    heating: Heating[HeatedT],
+    step: tuple[Array, Array],
+    hottest: Sequence[float],
+) -> tuple[FilmT, HeatedT]:
+    """The film with the viscosities x + d and its temperatures; with a part of d where there is no such film.
+
+    Under a load a step from a cold film may go beyond the solution, so that nothing carries the load or asperities rub
+    too hard.
+
+    Parameters
+    ----------
+    step : x and d, shape (3, nx, ny).
+    hottest : largest temperatures of the films before, K.
+    """
+    used, change = step
+    for halvings in range(MAX_HALVINGS + 1):
+        try:
+            found = again(film, used + change / 2**halvings)
+            temperatures = heating(found.solution, heated)
+        except (InputError, ConvergenceError):
+            if halvings == MAX_HALVINGS:
+                raise
+            continue
+        if float(temperatures.temperature.max()) <= HOTTEST:
+            return found, temperatures
+    raise _runaway([*hottest, float(temperatures.temperature.max())])
 
 
 def _with_temperatures(
@@ -204,12 +237,15 @@ def contraction(changes: Sequence[float]) -> float:
     return float((last / first) ** (1 / count)) if count and last > 0 else 0.0
 
 
-def _runaway(hottest: list[float]) -> str:
+def _runaway(hottest: Sequence[float]) -> ConvergenceError:
+    """The answer that temperatures run away."""
     first, last = hottest[0] - ZERO_CELSIUS, hottest[-1] - ZERO_CELSIUS
     grew = f"grew from {first:.4g} to {last:.4g} degC" if len(hottest) > 1 else f"is {last:.4g} degC"
-    return (
+    return ConvergenceError(
         f"temperature: thermal runaway, the greatest temperature of the film {grew}, above "
-        f"{HOTTEST - ZERO_CELSIUS:.4g} degC, where no lubricant is liquid; {RUNAWAY}"
+        f"{HOTTEST - ZERO_CELSIUS:.4g} degC, where no lubricant is liquid; {RUNAWAY}",
+        outcome=Outcome.DIVERGED,
+        iterations=len(hottest),
     )
 
 

@@ -17,6 +17,7 @@ from roughfilm.rom.bearing.thermal.field.coupling import HOTTEST
 from roughfilm.rom.bearing.thermal.field.heated import Mixture
 from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.cavitation.evaluation.flows import flow_along, node_balances
+from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 
@@ -161,6 +162,24 @@ def replaced(scene: Bearing, solution: Solution, liquid: Liquid) -> Array:
     first = covered & ~np.roll(covered, 1, axis=0) & (arriving > 0)
     capacity = float(liquid.heat(np.array([liquid.temperature]))[1][0])
     return np.where(first, arriving * capacity * (1 / kept - 1) / grid.areas, 0.0)
+
+
+def seen_from_inside(viscosities: Viscosities, solution: Solution) -> Viscosities:
+    """The viscosities of a film; where lubricant flows back into its end, those before the end at all nodes of it.
+
+    The direction of the flow through a node of the end depends on the viscosity there where the pressure of the end
+    feeds the sides. With the viscosity of what flows through it, films with new and with hot lubricant at the node
+    would alternate; that of the node before, where both mix, changes with the flow without a jump.
+    """
+    if solution.network.periodic[0] or not (node_balances(solution)[-1] > 0).any():
+        return viscosities
+
+    def inside(values: Array) -> Array:
+        return np.concatenate([values[:-1], values[-2:-1]])
+
+    return Viscosities(
+        flow=inside(viscosities.flow), shear=inside(viscosities.shear), carried=inside(viscosities.carried)
+    )
 
 
 def at_mixture(

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from scipy.special import lambertw
 
@@ -124,6 +125,21 @@ def test_energy_leaves_as_it_comes_in(case):
         assert generated == pytest.approx(found[f"power_loss{per}"] + pumped, rel=1e-9)
     if case.get("heat") is COOLED:
         assert off == pytest.approx(20.0 * (found["effective_temperature"] - 20.0), rel=1e-6)
+
+
+def test_a_bore_draws_new_lubricant_where_its_pressure_is_below_that_of_the_sides():
+    """What the pressure gradient at the sides draws in, and no net flow, takes the heat away."""
+    bath = {"sides": {"low": "0.1 MPa", "high": "0.1 MPa"}}
+    result = solved(BORE | {"eccentricity": [0.3, -0.4]}, boundary=bath, cells=48)
+    found, fields = values(result), {name: field.values for name, field in result.fields.items()}
+    eta = ETA * math.exp(-BETA * (found["effective_temperature"] - COLD))
+    drop = fields["pressure"][:, 0] - fields["pressure"][:, 1]
+    step_x, step_y = (float(np.diff(fields[axis], axis=n).max()) for n, axis in enumerate("xy"))
+    drawn = 2 * float(np.maximum(drop * fields["film_thickness"][:, 0] ** 3 / (12 * eta * step_y), 0).sum() * step_x)
+    taken = DENSITY * CAPACITY * drawn * (found["outlet_temperature"] - COLD)
+    assert abs(found["side_leakage"]) < 1e-9 * drawn
+    assert taken == pytest.approx(found["heat_to_lubricant"], rel=1e-3)
+    assert found["heat_to_lubricant"] == pytest.approx(found["power_loss"], rel=1e-9)
 
 
 def test_a_wide_wedge_is_that_of_the_closed_form():

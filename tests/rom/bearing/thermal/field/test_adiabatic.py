@@ -211,6 +211,15 @@ def test_a_full_bore_whose_lubricant_circulates_has_temperatures(viscosity):
     assert temperature.min() >= SUPPLIED - 0.1
 
 
+def test_a_supply_at_both_ends_feeds_the_sides():
+    """Where the flow turns along the end, no film alternates between new and hot lubricant there."""
+    oil = {"oil": "ISO VG 32", "temperature": f"{SUPPLIED} degC"}
+    geometry = JOURNAL | {"clearance": "80 um", "width": "70 mm", "eccentricity": 0.534}
+    result = solved(scene(geometry, "15.7 m/s", oil, boundary={"inlet": {"pressure": "1 MPa"}}), 24)
+    assert result.numerics.details["heated_films"] < 15
+    assert SUPPLIED < value(result, "temperature_max") < 90
+
+
 def test_lubricant_that_returns_without_a_side_runs_away():
     wide = {key: one for key, one in JOURNAL.items() if key != "width"}
     with pytest.raises(ConvergenceError, match=r"thermal runaway, hot lubricant enters the film again") as caught:

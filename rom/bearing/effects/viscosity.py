@@ -1,0 +1,175 @@
+"""The changes of a bearing by heating and by shear thinning, from models that differ by them on one coarse grid."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+from roughfilm import rom
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.rounding import share
+from roughfilm.rom.bearing.effects.absent import absent_effects
+from roughfilm.rom.bearing.keyed import KeyedScene, keyed
+from roughfilm.rom.bearing.roughness import RoughSurface
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.ladder.kind import Omission, kind_of, kind_of_scene
+from roughfilm.rom.ladder.model import Effect, Model, ladder
+from roughfilm.rom.ladder.request import Request
+from roughfilm.rom.ladder.result import Result
+
+CELLS = {True: (128, 512), False: (32, 64)}
+"""Number of cells along a side, for an infinitely wide film (True) and for others; the second if a model fails."""
+
+MARGIN = 1.1
+"""Change on fine grids over that on the coarse one that 95 of 100 random scenes do not exceed."""
+
+EFFECTS: Mapping[Effect, str] = {
+    Effect.SHEAR_THINNING: "shear thinning",
+    Effect.HEATING: "heating",
+    Effect.TEMPERATURE_FIELD: "the temperature over the film",
+    Effect.TEMPERATURE_ACROSS: "the temperature across the film",
+}
+"""The effects on the viscosity, in words."""
+
+ON_COARSE_GRID = "measured on a coarse grid"
+"""Origin of the size of these effects."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CoarseFilms:
+    """The film of a bearing on one coarse grid, by models that differ in their effects on the viscosity.
+
+    Attributes
+    ----------
+    models : the models, from that with none of these effects to those with most of them.
+    results : results by the name of the model.
+    failures : messages of models without a result, by name.
+    smooth : whether the rough wall of the scene was replaced by a smooth one.
+    absent : effects that the scene does not have.
+    """
+
+    models: tuple[Model[Bearing], ...]
+    results: Mapping[str, Result]
+    failures: Mapping[str, str]
+    smooth: bool
+    absent: frozenset[str]
+
+    def effects(self, model: Model[Bearing]) -> frozenset[Effect]:
+        """The effects on the viscosity that a model keeps in the scene."""
+        return (model.keeps & EFFECTS.keys()) - self.absent
+
+    def above(self, model: Model[Bearing]) -> list[Model[Bearing]]:
+        """The models with the effects of a model and more, from the fewest to the most."""
+        return [one for one in self.models if self.effects(model) < self.effects(one)]
+
+    def standing_for(self, model: Model[Bearing]) -> Model[Bearing]:
+        """The model here with the same effects on the viscosity as another one."""
+        own = self.effects(model)
+        return next(one for one in reversed(self.models) if self.effects(one) <= own)
+
+    def left_out(self, more: Model[Bearing], less: Model[Bearing]) -> list[str]:
+        """The effects of a model that another one lacks, in words; heating includes what its temperature varies by."""
+        lacking = self.effects(more) - self.effects(less)
+        if Effect.HEATING in lacking:
+            lacking -= {Effect.TEMPERATURE_FIELD, Effect.TEMPERATURE_ACROSS}
+        if {Effect.TEMPERATURE_FIELD, Effect.TEMPERATURE_ACROSS} <= lacking:
+            return ["the temperature over the film and across it"]
+        return [words for effect, words in EFFECTS.items() if effect in lacking]
+
+    def change(self, quantity: str, more: Model[Bearing], less: Model[Bearing]) -> float | None:
+        """A quantity by one model minus that by another one, over its size by the first; None if one lacks it."""
+        if any(one.name not in self.results for one in (more, less)):
+            return None
+        found, other = self.results[more.name], self.results[less.name]
+        if quantity not in found.quantities or quantity not in other.quantities:
+            return None
+        size = kind_of(found).scale_of(found, quantity)
+        return (found[quantity].value - other[quantity].value) / size if size > 0 else None
+
+
+def coarse_films(scene: Bearing) -> CoarseFilms | None:
+    """The films of a scene by these models; None where the viscosity changes neither with temperature nor with shear.
+
+    A rough surface, whose flow factors are costly, is replaced by a smooth wall; stored tables and ridges are kept. The
+    results are kept in memory.
+    """
+    lubricant = scene.lubricant
+    if lubricant.thermoviscosity is None and lubricant.shear_thinning is None:
+        return None
+    return _films(keyed(scene.without_time()))
+
+
+def viscosity_omitted(scene: Bearing, model: Model[Bearing], quantity: str) -> Omission | None:
+    """The relative change of a quantity by heating and shear thinning that a model leaves out; None if it is unknown.
+
+    It is ``MARGIN`` times the difference between the model with most of these effects and the one that has those of the
+    model, on one coarse grid. It is infinite if the former fails, as by a thermal runaway.
+    """
+    films = coarse_films(scene)
+    if films is None:
+        return None
+    own = films.standing_for(model)
+    above = films.above(own)
+    if not above or own.name not in films.results:
+        return None
+    best = above[-1]
+    if best.name in films.failures:
+        reason = f"{_listed(films.left_out(best, own))}: {films.failures[best.name]}"
+        return Omission(part=math.inf, reason=reason, source=ON_COARSE_GRID)
+    change = films.change(quantity, best, own)
+    if change is None:
+        return None
+    names = films.left_out(best, own)
+    where = " of the smooth film" if films.smooth else ""
+    changes = "change" if len(names) > 1 else "changes"
+    title = kind_of_scene(scene).titles[quantity]
+    reason = f"{_listed(names)} {changes} the {title}{where} by about {share(abs(change))}"
+    others = _by_others(films, quantity, best, above[:-1])
+    return Omission(part=MARGIN * abs(change), reason=reason + others, source=ON_COARSE_GRID)
+
+
+def _by_others(films: CoarseFilms, quantity: str, best: Model[Bearing], others: Sequence[Model[Bearing]]) -> str:
+    """What models with a part of the effects leave, such as "; heat_balance gives it to 4 %"."""
+    left = {one.name: films.change(quantity, best, one) for one in others}
+    parts = [f"{name} to {share(abs(change))}" for name, change in left.items() if change is not None]
+    return "" if not parts else f"; {_listed(parts)}".replace(" to ", " gives it to ", 1)
+
+
+def _listed(names: Sequence[str]) -> str:
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+@lru_cache(maxsize=16)
+def _films(question: KeyedScene) -> CoarseFilms | None:
+    scene = question.scene
+    smooth = isinstance(scene.roughness, RoughSurface)
+    if smooth:
+        scene = scene.model_copy(update={"roughness": None, "asperities": None})
+    absent = absent_effects(scene)
+    wanted = {Effect.SIDE_FLOW, Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE}
+    applying = [
+        model for model in ladder(rom, kind="bearing") if wanted <= model.keeps and model.applies(scene).applies
+    ]
+    plain = [model for model in applying if not model.keeps & {*EFFECTS, Effect.FINITE_WAVES}]
+    changed = [model for model in applying if model.keeps & EFFECTS.keys()]
+    if not changed:
+        return None
+    models = (plain[-1], *sorted(changed, key=lambda model: len((model.keeps & EFFECTS.keys()) - absent)))
+    for cells in CELLS[scene.wide]:
+        results, failures = _solved(scene, models, cells)
+        if not failures:
+            break
+    return CoarseFilms(models=models, results=results, failures=failures, smooth=smooth, absent=absent)
+
+
+def _solved(scene: Bearing, models: Sequence[Model[Bearing]], cells: int) -> tuple[dict[str, Result], dict[str, str]]:
+    """The results of models on a grid, and the messages of those that fail, by name."""
+    results: dict[str, Result] = {}
+    failures: dict[str, str] = {}
+    for model in models:
+        try:
+            results[model.name] = model.solve(scene, Request(resolution=cells))
+        except (InputError, ConvergenceError) as error:
+            failures[model.name] = str(error)
+    return results, failures

@@ -1,0 +1,138 @@
+"""The part of a quantity that heating and shear thinning change, measured on a coarse grid."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.ladder import find, models
+from roughfilm.rom.advice.advise import advise
+from roughfilm.rom.bearing.effects.viscosity import MARGIN, coarse_films, viscosity_omitted
+from roughfilm.rom.bearing.effects.waves import waves_omitted
+from roughfilm.rom.bearing.omission import omission
+from roughfilm.rom.bearing.roughness import Sinusoid
+from roughfilm.rom.ladder.model import best_for
+from roughfilm.rom.ladder.request import Request
+from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.rom.temperature.closed_forms.slider import adiabatic_slider
+from roughfilm.words.headline import included, left_out
+
+ISOTHERMAL = find("bearing", "reynolds_cavitating")
+BALANCE = find("bearing", "heat_balance")
+MODELS = models("bearing")
+WEDGE = {"film": 20e-6, "rise": 20e-6, "length": 50e-3, "speed": 2.0, "viscosity": 0.05}
+COEFFICIENT, HEAT = 0.04, 1.74e6
+
+
+def wedge(speed=2.0, **lubricant):
+    """An infinitely wide wedge whose lubricant heats."""
+    geometry = {"shape": "linear", "length": "50 mm", "film": "20 um", "rise": "20 um"}
+    oil = {
+        "viscosity": "0.05 Pa*s",
+        "temperature": "40 degC",
+        "density": "870 kg/m^3",
+        "heat_capacity": "2000 J/(kg*K)",
+        "conductivity": "100 W/(m*K)",  # so large that the temperature is uniform across the film
+        "thermoviscosity": {"law": "exponential", "temperature_coefficient": "0.04 1/K"},
+    }
+    entries = {"geometry": geometry, "lubricant": {**oil, **lubricant}, "motion": {"speed": f"{speed} m/s"}}
+    return read_scene({"name": "wedge", "kind": "bearing", **entries})
+
+
+def exact(speed, coefficient):
+    liquid = {"temperature": 0.0, "temperature_coefficient": coefficient, "heat_per_volume": HEAT}
+    return adiabatic_slider(**{**WEDGE, "speed": speed}, **liquid)
+
+
+@pytest.mark.parametrize("speed", [0.2, 2.0, 10.0])
+def test_the_part_of_an_isothermal_model_is_that_of_the_exact_adiabatic_film(speed):
+    cold, warm = exact(speed, 1e-9), exact(speed, COEFFICIENT)
+    omitted = viscosity_omitted(wedge(speed), ISOTHERMAL, "load_per_width")
+    assert omitted.reason.startswith("heating changes the load by about")
+    assert "heat_balance gives it to" in omitted.reason
+    assert omitted.part == pytest.approx(MARGIN * (cold.load - warm.load) / warm.load, rel=0.03)
+
+
+def test_of_the_best_model_nothing_is_left_out():
+    scene = wedge()
+    top = best_for(scene, [model for model in MODELS if model.applies(scene).applies])
+    assert coarse_films(scene).models[-1] == top
+    assert viscosity_omitted(scene, top, "load_per_width") is None
+
+
+def test_the_part_of_the_heat_balance_is_smaller_and_names_the_field():
+    omitted, isothermal = (viscosity_omitted(wedge(), model, "load_per_width") for model in (BALANCE, ISOTHERMAL))
+    assert 0 < omitted.part < isothermal.part / 2
+    assert omitted.reason.startswith("the temperature over the film")
+
+
+def test_isothermal_scenes_are_left_alone():
+    scene = wedge(thermoviscosity=None)
+    assert coarse_films(scene) is None
+    assert viscosity_omitted(scene, ISOTHERMAL, "load_per_width") is None
+    assert not any("heating" in model.keeps for model in MODELS if model.applies(scene).applies)
+
+
+def test_a_failure_of_the_best_model_makes_the_part_unknown(monkeypatch):
+    def compute(*_):
+        raise ConvergenceError("thermal runaway")
+
+    top = coarse_films(wedge()).models[-1]
+    ladder = (ISOTHERMAL, BALANCE, replace(top, compute=compute))
+    monkeypatch.setattr("roughfilm.rom.bearing.effects.viscosity.ladder", lambda *_, **__: ladder)
+    for model in (ISOTHERMAL, BALANCE):
+        omitted = viscosity_omitted(wedge(2.5), model, "load_per_width")
+        assert omitted.part == math.inf
+        assert omitted.reason.endswith(": thermal runaway")
+
+
+def test_heating_adds_to_inertia():
+    scene = wedge()
+    both, heating = (
+        omission(scene, ISOTHERMAL, "load_per_width"),
+        viscosity_omitted(scene, ISOTHERMAL, "load_per_width"),
+    )
+    assert both.part > heating.part
+    assert both.reason.startswith(heating.reason)
+    assert "inertia" in both.reason
+
+
+def test_models_with_temperature_leave_out_the_length_of_ridges():
+    """The difference between the film with all waves and the averaged one, of waves 1/20 of the length."""
+    ridges = {"kind": "sinusoid", "amplitude": "8 um", "wavelength": "2.5 mm", "direction": "0 deg"}
+    scene = wedge(conductivity=None).model_copy(update={"roughness": Sinusoid.model_validate(ridges)})
+    isothermal = scene.isothermal()
+    resolved, averaged = (
+        find("bearing", name).solve(isothermal, Request(resolution=1024))["load_per_width"].value
+        for name in ("direct", "homogenized")
+    )
+    omitted = waves_omitted(scene, BALANCE, "load_per_width")
+    assert omitted.part == pytest.approx(abs(resolved - averaged) / resolved, rel=0.05)
+    assert omitted.part > 0.01
+    assert waves_omitted(scene, find("bearing", "homogenized"), "load_per_width") is None
+
+
+def test_the_words_name_only_effects_that_the_scene_has():
+    scene = wedge()
+    assert included(scene, BALANCE, MODELS).endswith("includes cavitation, heating, pressure dependence and side flow")
+    words = left_out(scene, ISOTHERMAL, MODELS)
+    assert "heating" in words.partition(";")[0]
+    assert "roughness" not in words
+    assert "heat and deformation" not in words
+
+
+@pytest.mark.parametrize(
+    ("speed", "within", "enough"),
+    [
+        (0.2, 0.05, {"reynolds", "reynolds_incompressible", "reynolds_cavitating"}),
+        (2.0, 0.05, {"heat_balance", "adiabatic"}),
+        (10.0, 0.02, {"adiabatic", "across"}),
+    ],
+)
+def test_the_cheapest_model_that_is_accurate_enough(speed, within, enough):
+    """The more the film heats, the more of its temperature it takes; the exact solution judges the answer."""
+    advice = advise(wedge(speed), MODELS, quantity="load_per_width", within=within)
+    assert advice.chosen.model in enough
+    load = exact(speed, COEFFICIENT).load
+    assert abs(advice.result["load_per_width"].value - load) <= within * load

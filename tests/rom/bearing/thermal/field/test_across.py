@@ -1,0 +1,118 @@
+"""Films whose temperature varies from wall to wall, with the walls of the table [heat] of a scene."""
+
+import pytest
+
+from roughfilm.ladder import find
+from roughfilm.rom.ladder.request import Request
+from roughfilm.rom.ladder.scene import read_scene
+
+ACROSS, ADIABATIC = find("bearing", "across"), find("bearing", "adiabatic")
+LUBRICANT = {
+    "viscosity": "0.03 Pa*s",
+    "density": "860 kg/m^3",
+    "temperature": "40 degC",
+    "heat_capacity": "2000 J/(kg*K)",
+    "conductivity": "0.14 W/(m*K)",
+    "thermoviscosity": {"law": "exponential", "temperature_coefficient": "0.035 1/K"},
+}
+WEDGE = {"shape": "linear", "length": "0.1 m", "width": "0.1 m", "film": "40 um", "rise": "40 um"}
+JOURNAL = {"shape": "journal", "radius": "50 mm", "width": "80 mm", "clearance": "60 um", "eccentricity": 0.7}
+LOBES = {"shape": "lobes", "lobes": 3, "arc": "100 deg", "radius": "50 mm", "width": "80 mm", "clearance": "60 um"}
+STEEL = {"conductivity": "45 W/(m*K)"}
+CONDUCTING = {"kind": "conducting", "thickness": "20 mm", **STEEL, "heat_transfer": "200 W/(m^2*K)"}
+HALF_SPACE = {"kind": "half_space", **STEEL, "density": "7800 kg/m^3", "heat_capacity": "460 J/(kg*K)"}
+
+
+def scene(geometry, lubricant=LUBRICANT, **more):
+    lubricant = {key: one for key, one in lubricant.items() if one is not None}
+    entries = {"name": "hot", "kind": "bearing", "geometry": geometry, "lubricant": lubricant}
+    return read_scene({**entries, "motion": {"speed": "12 m/s"}, **more})
+
+
+def solved(bearing, cells=20, model=ACROSS):
+    return model.solve(bearing, Request(resolution=cells))
+
+
+def value(result, name):
+    return result.quantities[name].value
+
+
+def balanced(result):
+    """The heat that is generated less what takes it away, over the former."""
+    taken = sum(value(result, f"heat_to_{name}") for name in ("lubricant", "fixed_wall", "sliding_wall"))
+    return 1 - taken / value(result, "heat_generated")
+
+
+@pytest.fixture(scope="module")
+def insulated():
+    return solved(scene(WEDGE))
+
+
+def test_walls_without_heat_agree_with_the_mean_temperature_at_small_heating(insulated):
+    """With little heating the viscosity is even across the film, and both models have the same energy."""
+    thin = {**LUBRICANT, "viscosity": "0.0005 Pa*s"}
+    across, mean = (solved(scene(WEDGE, lubricant=thin), model=model) for model in (ACROSS, ADIABATIC))
+    for name in ("load", "friction", "heat_generated"):
+        assert value(across, name) == pytest.approx(value(mean, name), rel=5e-3), name
+    rise = value(mean, "outlet_temperature") - 40
+    assert value(across, "outlet_temperature") - 40 == pytest.approx(rise, rel=1e-2)
+    assert value(insulated, "temperature_max") > value(insulated, "temperature_mean") > 40
+
+
+def test_heat_leaves_by_lubricant_and_walls(insulated):
+    walls = solved(scene(WEDGE, heat={"fixed_wall": CONDUCTING, "sliding_wall": HALF_SPACE}))
+    for result in (insulated, walls):
+        assert abs(balanced(result)) < 1e-8
+        assert result.numerics.details["energy_imbalance"] < 1e-8
+    assert value(insulated, "heat_to_sliding_wall") == pytest.approx(0, abs=1e-6)
+    assert value(walls, "heat_to_sliding_wall") > value(walls, "heat_to_fixed_wall") > 0
+    assert value(walls, "temperature_max") < value(insulated, "temperature_max")
+    assert value(walls, "load") > value(insulated, "load")
+
+
+def test_a_wall_has_its_given_temperature():
+    walls = {"kind": "temperature", "temperature": "55 degC"}
+    result = solved(scene(WEDGE, heat={"fixed_wall": walls, "sliding_wall": walls}))
+    for name in ("fixed_wall_temperature", "sliding_wall_temperature"):
+        assert result.fields[name].unit == "degC"
+        assert result.fields[name].values == pytest.approx(55, abs=1e-6)
+
+
+def test_a_turning_shaft_takes_no_heat_in_sum():
+    result = solved(scene(JOURNAL, heat={"fixed_wall": CONDUCTING, "sliding_wall": "turning"}))
+    assert value(result, "heat_to_sliding_wall") == pytest.approx(0, abs=1e-6 * value(result, "heat_generated"))
+    assert value(result, "inlet_temperature") < value(result, "shaft_temperature") < value(result, "temperature_max")
+    assert result.fields["sliding_wall_temperature"].values == pytest.approx(value(result, "shaft_temperature"))
+    assert abs(balanced(result)) < 1e-8
+
+
+def test_lobes_under_a_load_turn_around_a_shaft():
+    bearing = scene(LOBES, load={"force": "5 kN"}, heat={"sliding_wall": "turning"})
+    result = solved(bearing, 24)
+    assert value(result, "load") == pytest.approx(5e3, rel=1e-6)
+    assert 40 < value(result, "shaft_temperature") < value(result, "temperature_max")
+
+
+def test_a_constant_viscosity_gives_the_isothermal_pressure():
+    constant = {**LUBRICANT, "thermoviscosity": {"law": "exponential", "temperature_coefficient": "0 1/K"}}
+    bearing = scene(WEDGE, lubricant=constant)
+    hot, plain = solved(bearing), solved(bearing, model=find("bearing", "reynolds_cavitating"))
+    assert value(hot, "load") == pytest.approx(value(plain, "load"), rel=1e-9)
+    assert value(hot, "friction") == pytest.approx(value(plain, "friction"), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (
+            {"lubricant": {key: one for key, one in LUBRICANT.items() if key != "conductivity"}},
+            "lubricant.conductivity",
+        ),
+        ({"heat": {"fixed_wall": {"kind": "conducting", "thickness": "20 mm"}}}, "a thickness without a conductivity"),
+        ({"geometry": LOBES | {"eccentricity": [0.2, 0.1]}, "heat": {"carried_over": 0.8}}, "carried_over is 0.8"),
+    ],
+)
+def test_the_model_says_what_it_needs(change, words):
+    fits = ACROSS.applies(scene(**{"geometry": WEDGE, **change}))
+    assert not fits.applies
+    assert words in fits.reason
