@@ -12,7 +12,6 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.request import Request
 from roughfilm.stability.form import (
     BAD,
-    Judgement,
     MapOutcome,
     Probe,
     Spot,
@@ -29,6 +28,7 @@ from roughfilm.stability.questions.thermal import (
     MODELS,
     SUPPLIED,
     asked,
+    bounded,
     film,
     judged,
     lubricant,
@@ -100,7 +100,7 @@ THETAS = (0.3, 0.6, 0.9)
 BACK_PRESSURES = ("0.5 MPa", "2 MPa", "10 MPa", "50 MPa")
 """Pressures at the outlet of a pad, of which the larger ones drive lubricant back."""
 
-SEPARATIONS = (4.0, 3.0, 2.0, 1.0)
+SEPARATIONS = (6.0, 4.0, 3.0)
 """Film thickness of mixed films over the rms height of their roughness."""
 
 DENSE: Mapping[str, Any] = {"viscosity": None, "temperature": "50 degC", "density": "870 kg/m^3"}
@@ -145,6 +145,26 @@ WALLS: Mapping[str, tuple[str, Mapping[str, Any]]] = {
     ),
 }
 """Walls of films with a temperature across: shape and table."""
+
+
+ROUGH: Mapping[str, Any] = {
+    "roughness": {
+        "kind": "surface",
+        "surface": {
+            "kind": "gaussian",
+            "size": ["0.5 mm", "0.5 mm"],
+            "points": [64, 64],
+            "seed": 7,
+            "rms_height": "1 um",
+            "correlation_length": "20 um",
+        },
+    },
+    "asperities": {"friction": 0.1, "solid": {"modulus": "210 GPa", "poisson": 0.3, "hardness": "2 GPa"}},
+    "motion": {"speed": "1 m/s"},
+}
+"""A rough wall that touches the other one, at a low speed."""
+
+MIXED_PAD: Mapping[str, Any] = {**PAD, "rise": "2 um"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -248,29 +268,12 @@ def cases() -> Iterator[Case]:
             group="mixed films",
             row=model,
             column=f"h/Sq = {separation:g}",
-            geometry={**PAD, "film": f"{separation!r} um", "rise": "2 um"},
+            geometry={**MIXED_PAD, "film": f"{separation!r} um"},
             lubricant=lubricant(1e-3),
-            tables={**ROUGH, "motion": {"speed": "1 m/s"}},
+            tables=ROUGH,
             model=model,
             even=False,
         )
-
-
-ROUGH: Mapping[str, Any] = {
-    "roughness": {
-        "kind": "surface",
-        "surface": {
-            "kind": "gaussian",
-            "size": ["0.5 mm", "0.5 mm"],
-            "points": [64, 64],
-            "seed": 7,
-            "rms_height": "1 um",
-            "correlation_length": "20 um",
-        },
-    },
-    "asperities": {"friction": 0.1, "solid": {"modulus": "210 GPa", "poisson": 0.3, "hardness": "2 GPa"}},
-}
-"""A rough wall that touches the other one."""
 
 
 def _column(heating: float) -> str:
@@ -289,6 +292,7 @@ REFUSED: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any], Mapping[str, A
         lubricant(1.0),
         {"boundary": {"sides": {"low": "0.1 MPa", "high": "0.1 MPa"}}},
     ),
+    "asperities that heat a film by 10⁵ K": ({**MIXED_PAD, "film": "1 um"}, lubricant(1e-3), ROUGH),
 }
 """Films without a temperature, and without a film: geometry, lubricant and other tables."""
 
@@ -300,16 +304,17 @@ def probes(cells: int) -> Iterator[Probe]:
             group=case.group,
             row=case.row,
             column=case.column,
-            ask=partial(_asked, case, cells),
+            ask=partial(bounded, partial(_asked, case, cells)),
             judge=partial(judged, even=case.even),
             many=MANY_FILMS,
         )
     for group, row, column, ask in _pairs(cells):
-        yield Probe(group=group, row=row, column=column, ask=ask, judge=judged_pair, many=MANY_FILMS)
+        question = partial(bounded, ask)
+        yield Probe(group=group, row=row, column=column, ask=question, judge=judged_pair, many=MANY_FILMS)
     for (name, (geometry, table, tables)), model in product(REFUSED.items(), MODELS):
         given = {key: entry for key, entry in geometry.items() if entry is not None}
-        ask = partial(_solved, given, table, tables, model, cells)
-        yield Probe(group="no temperature", row=name, column=model, ask=ask, judge=judged, refused=True)
+        refused = partial(bounded, partial(_solved, given, table, tables, model, cells))
+        yield Probe(group="no temperature", row=name, column=model, ask=refused, judge=judged, refused=True)
 
 
 def _asked(case: Case, cells: int) -> object:
@@ -338,9 +343,7 @@ def _pairs(cells: int) -> Iterator[tuple[str, str, str, Callable[[], Compared]]]
     for name, heating in product(("pad", "sector", "journal with a groove", "two axial grooves"), (0.1, 1.0, 10.0)):
         ask = partial(against_adiabatic, *SHAPES[name], heating, cells)
         yield "heat_balance against adiabatic", name, _column(heating), ask
-    for (name, heating), model in product(
-        product(("pad", "journal with a groove"), (0.1, 1.0, 10.0)), MODELS
-    ):
+    for (name, heating), model in product(product(("pad", "journal with a groove"), (0.1, 1.0, 10.0)), MODELS):
         ask = partial(loaded, *SHAPES[name], heating, model, cells)
         yield "films under the load of a known one", f"{name}, {model}", _column(heating), ask
 
@@ -364,8 +367,8 @@ def summary(spots: Sequence[Spot]) -> list[str]:
 THERMAL = StabilityMap(
     name="thermal",
     title="Films with temperatures",
-    axes=f"{', '.join(MODELS)} for several shapes (rows) over the heating number β η u L/(ρ c h²) with the viscosity of "
-    "the supply, and the Nahme number Na = β η u²/k (columns), near contact, starved, against a pressure at the "
+    axes=f"{', '.join(MODELS)} for several shapes (rows) over the heating number β η u L/(ρ c h²) with the viscosity "
+    "of the supply, and the Nahme number Na = β η u²/k (columns), near contact, starved, against a pressure at the "
     "outlet, for several laws of viscosity and walls, and in mixed films, on {resolution} cells along a side. Then "
     "pairs of answers that are compared, and films without a temperature.",
     judge="The heat that the film generates, brings in, carries out and gives to its walls, recomputed from its flows "

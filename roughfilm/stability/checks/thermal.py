@@ -16,7 +16,10 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.temperature.across import TemperatureAcross
 
 BALANCE = 1e-8
-"""Allowed error of the heat balance of a film over its heat flows."""
+"""Allowed error of the heat balance of a film over its heat flows, unless the result states a larger one."""
+
+LARGEST_STATED = 1e-6
+"""Largest error of the heat balance that a result may state."""
 
 POWER = 3.0
 """Allowed relative difference of the heat from the work of friction and pressures, over the stated error of ln η."""
@@ -25,7 +28,7 @@ UNDERSHOOT = 2e-3
 """Allowed temperature below all that enters and all walls, over the range of temperatures."""
 
 UNEVEN = 2e-3
-"""Allowed difference of ln η at mirrored nodes of a symmetric film: that at which films and temperatures stop, twice."""
+"""Allowed difference of ln η at mirrored nodes of a symmetric film: twice that at which an iteration stops."""
 
 ROUNDED = 1e-6
 """Differences of temperatures that do not count, K."""
@@ -74,7 +77,9 @@ def heat_errors(scene: Bearing, result: Result, solution: Solution, heated: Heat
     return HeatErrors(balance=abs(balance) / scale, work=abs(heated.generated - work) / (abs(work) or 1.0))
 
 
-def broken_field(scene: Bearing, result: Result, solution: Solution, heated: HeatedFilm, *, even: bool) -> Iterator[str]:
+def broken_field(
+    scene: Bearing, result: Result, solution: Solution, heated: HeatedFilm, *, even: bool
+) -> Iterator[str]:
     """The laws that the temperatures of a film violate, in words.
 
     Parameters
@@ -84,7 +89,7 @@ def broken_field(scene: Bearing, result: Result, solution: Solution, heated: Hea
     errors, details = heat_errors(scene, result, solution, heated), result.numerics.details
     if errors.balance > max(BALANCE, details["energy_imbalance"]):
         yield f"the heat of the film has an error of {errors.balance:.2g}"
-    if details["energy_imbalance"] > BALANCE:
+    if details["energy_imbalance"] > LARGEST_STATED:
         yield f"the heat balance is stated with an error of {details['energy_imbalance']:.2g}"
     allowed = POWER * details["viscosity_change"] + BALANCE
     if errors.work > allowed:

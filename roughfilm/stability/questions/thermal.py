@@ -1,10 +1,12 @@
 """Films with temperatures that test the thermal models, and the judgement of the answers."""
 
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.scene import Bearing
@@ -45,8 +47,31 @@ SUPPLIED, DENSITY, CAPACITY, CONDUCTIVITY, THINNING = 40.0, 860.0, 2000.0, 0.14,
 SPEED, LENGTH, FILM = 10.0, 0.05, 30e-6
 """Of the films: sliding speed, m/s, length, m, and film thickness, m, of the heating number."""
 
+LONGEST_S = 20.0
+"""Largest CPU time of a question, s: a film that takes longer does not end."""
+
 LESS_HEAT = 5e-3
 """Relative excess of the heat of a film over that of the isothermal one that grids may cause beyond uncertainties."""
+
+
+def bounded(ask: Callable[[], Any]) -> Any:
+    """The answer of a question, or its error, in a bounded time.
+
+    Raises
+    ------
+    TimeoutError
+        If either takes more than ``LONGEST_S``.
+    """
+    start, error = time.process_time(), None
+    try:
+        answer = ask()
+    except (InputError, ConvergenceError) as caught:
+        answer, error = None, caught
+    if (cpu_s := time.process_time() - start) > LONGEST_S:
+        raise TimeoutError(f"an end after {cpu_s:.3g} s CPU: {error or 'an answer'}")
+    if error is not None:
+        raise error
+    return answer
 
 
 def viscosity(heating: float, thinning: float = THINNING) -> float:
@@ -146,7 +171,7 @@ def asked(scene: Bearing, model: str, cells: int, *, less: bool = False) -> Answ
 def judged(answer: Answer, *, even: bool = True) -> Judgement:
     """The judgement of an answer by the balance of its heat, the laws of its temperatures, and a finer grid."""
     film, result = answer.film, answer.film.result
-    faults = []
+    faults: list[str] = []
     if film.solution is not None and film.heated is not None:
         faults += broken_field(answer.scene, result, film.solution, film.heated, even=even)
     else:

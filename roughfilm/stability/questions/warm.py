@@ -4,10 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
-
-import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.ladder import find
@@ -67,7 +66,9 @@ def judged_pair(answer: Compared) -> Judgement:
     )
 
 
-def _solved(geometry: Mapping[str, Any], table: Mapping[str, Any], tables: Mapping[str, Any], model: str, cells: int) -> Result:
+def _solved(
+    geometry: Mapping[str, Any], table: Mapping[str, Any], tables: Mapping[str, Any], model: str, cells: int
+) -> Result:
     return find("bearing", model).solve(film(geometry, table, **tables), Request(resolution=cells))
 
 
@@ -124,10 +125,15 @@ def against_exact(rise: float, heating: float, cells: int) -> Compared:
 
 def against_isothermal(geometry: Mapping[str, Any], tables: Mapping[str, Any], model: str, cells: int) -> Compared:
     """Solve a film whose viscosity hardly depends on temperature, and compare it with the isothermal one."""
-    table = {**lubricant(0.1), "thermoviscosity": {"law": "exponential", "temperature_coefficient": f"{NO_THINNING} 1/K"}}
+    table = {
+        **lubricant(0.1),
+        "thermoviscosity": {"law": "exponential", "temperature_coefficient": f"{NO_THINNING} 1/K"},
+    }
     result, cold = (_solved(geometry, table, tables, one, cells) for one in (model, ISOTHERMAL))
     errors = {name: abs(result[name].value / cold[name].value - 1) for name in ("load", "friction")}
-    faults = tuple(f"{name} differs by {error:.2g} from the isothermal one" for name, error in errors.items() if error > SAME)
+    faults = tuple(
+        f"{name} differs by {error:.2g} from the isothermal one" for name, error in errors.items() if error > SAME
+    )
     return Compared(error=max(errors.values()), faults=faults, films=_films(result))
 
 
@@ -156,14 +162,14 @@ def against_adiabatic(geometry: Mapping[str, Any], tables: Mapping[str, Any], he
     )
     ratios = {name: one[name].value / other[name].value for name in ("friction", "heat_to_lubricant", "load")}
     faults = tuple(
-        f"{name} is {ratio:.3g} of that by adiabatic" for name, ratio in ratios.items() if not 1 / FACTOR < ratio < FACTOR
+        f"{name} is {ratio:.3g} of that by adiabatic"
+        for name, ratio in ratios.items()
+        if not 1 / FACTOR < ratio < FACTOR
     )
     return Compared(error=abs(ratios["friction"] - 1), faults=faults, films=_films(other))
 
 
-def loaded(
-    geometry: Mapping[str, Any], tables: Mapping[str, Any], heating: float, model: str, cells: int
-) -> Compared:
+def loaded(geometry: Mapping[str, Any], tables: Mapping[str, Any], heating: float, model: str, cells: int) -> Compared:
     """Solve for the load of a known film with temperatures, then search the film of this load."""
     table = lubricant(heating)
     known = _solved(geometry, table, tables, model, cells)
