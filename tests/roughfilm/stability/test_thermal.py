@@ -30,6 +30,8 @@ def probe(group: str, row: str, column: str) -> Probe:
         ("heat_balance over the heating number", "pad", "100 (Na = 2.2e+02)"),
         ("starved pads", "across", "θ = 0.9"),
         ("a film that widens, pumped against its sliding", "adiabatic", "2 MPa"),
+        ("a pad against a pressure at its outlet", "adiabatic", "10 MPa"),
+        ("a pad against a pressure at its outlet", "across", "10 MPa"),
         ("laws", "ISO VG 460", "across"),
         ("walls that take heat", "a turning shaft", "1 (Na = 2.2)"),
         ("a wide wedge against its exact solution", "rise/film = 1", "10 (Na = 22)"),
