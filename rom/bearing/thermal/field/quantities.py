@@ -14,10 +14,8 @@ from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.field.hot_spots import circulating_uncertainty
 from roughfilm.rom.bearing.thermal.field.residual import iteration
 from roughfilm.rom.bearing.thermal.field.rubbing import with_friction
+from roughfilm.rom.bearing.uncertainty import HOTTEST_PLACE
 from roughfilm.rom.cavitation.solve import Solution
-
-PLACES = ("temperature_max_x", "temperature_max_y")
-"""Quantities that are the position of a node."""
 
 SLOWEST = 0.9
 """Contraction above which the error that an iteration leaves is not extrapolated farther."""
@@ -86,7 +84,7 @@ class HeatedOutputs:
         )
         supplied = scene.lubricant.liquid.temperature - ZERO_CELSIUS
         for name, one in heated.items():
-            size = one.value - supplied if one.unit == "degC" else 0.0 if name in PLACES else one.value
+            size = one.value - supplied if one.unit == "degC" else 0.0 if name in HOTTEST_PLACE else one.value
             own[name] = relative * abs(size)
         return own
 
