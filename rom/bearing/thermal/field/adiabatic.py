@@ -96,7 +96,7 @@ class AdiabaticWalls:
             inlet=mixture,
             outlet=None if np.isnan(found.outlet_temperature) else found.outlet_temperature,
             generated=generated,
-            to_lubricant=generated - found.stored,
+            to_lubricant=_taken(found),
             imbalance=found.imbalance,
             friction=None if rubs is None else rubs.friction,
             start=stress,
@@ -104,6 +104,12 @@ class AdiabaticWalls:
             slopes=found.slopes,
             films=1 if before is None else before.films + 1,
         )
+
+
+def _taken(found: MeanTemperature) -> float:
+    """The heat that the lubricant takes away, W: in its flows, stored where walls move, and replaced in grooves."""
+    carried = sum(one.heat_out - one.heat_in for one in found.carried.values())
+    return carried + found.stored + float(found.to_walls.sum())
 
 
 def viscosity_at_rest(scene: Bearing, solution: Solution, near: HeatedFilm | None) -> Array | None:
