@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.bearing.corners import infinite_flows
+from roughfilm.rom.bearing.corners import unknown_by_infinite_flows
 from roughfilm.rom.bearing.quantities import EXACT, scene_positions
 from roughfilm.rom.cavitation.balance import FILM
 from roughfilm.rom.cavitation.evaluation.fronts import front_uncertainties
@@ -62,7 +62,8 @@ def uncertainties(
         return {}
     solution, quantities = levels[0]
     cells, values = [cells_of(grid) for grid, _ in levels], [level for _, level in levels]
-    unknown = infinite_flows(solution) | (frozenset() if (solution.kind == FILM).any() else frozenset(POSITIONS))
+    unknown = unknown_by_infinite_flows(solution)
+    unknown |= frozenset() if (solution.kind == FILM).any() else frozenset(POSITIONS)
     largest_flow = max((abs(one.value) for one in quantities.values() if one.unit == FLOW_UNIT), default=0.0)
     arm = abs(quantities["load"].value) * float(solution.grid.areas.sum()) ** 0.5 if "load" in quantities else 0.0
     least = front_uncertainties(solution, quantities["theta_min"].value) if "theta_min" in quantities else {}

@@ -87,12 +87,13 @@ class AdiabaticWalls:
         viscosities, stress = with_thinning(scene, solution, found, near)
         viscosities = seen_from_inside(viscosities, solution)
         generated = float(found.dissipation.sum())
+        highest, place = hottest(found.temperature, solution)
         return HeatedFilm(
             grid=solution.grid,
             temperature=found.temperature,
             viscosities=viscosities,
-            highest=float(found.temperature.max()),
-            place=hottest(found.temperature, solution.grid),
+            highest=highest,
+            place=place,
             inlet=mixture,
             outlet=None if np.isnan(found.outlet_temperature) else found.outlet_temperature,
             generated=generated,
