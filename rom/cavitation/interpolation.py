@@ -10,12 +10,11 @@ from roughfilm.rom.cavitation.network import State
 
 def carried(state: State, coarse: Grid, fine: Grid, joined: tuple[bool, bool]) -> State:
     """The state on the fine grid, linear in pressure and filling fraction; nodes with pressure above zero are film."""
-    pressure, fill = interpolated((state.pressure, state.fill), coarse, fine, joined)
+    pressure, fill = _interpolated((state.pressure, state.fill), coarse, fine, joined)
     return State(pressure=pressure, fill=np.where(pressure > 0, 1.0, fill))
 
 
-def interpolated(fields: tuple[Array, ...], known: Grid, wanted: Grid, joined: tuple[bool, bool]) -> list[Array]:
-    """Fields at the nodes of one grid at those of another one, linear along both directions."""
+def _interpolated(fields: tuple[Array, ...], known: Grid, wanted: Grid, joined: tuple[bool, bool]) -> list[Array]:
     x = between(known.x, known.spacing_x, wanted.x, joined=joined[0])
     y = between(known.y, known.spacing_y, wanted.y, joined=joined[1])
     return [np.ascontiguousarray(_spread(_spread(values, *x).T, *y).T) for values in fields]

@@ -13,9 +13,11 @@ from roughfilm.rom.bearing.thermal.field.mixing import (
     COARSE_NODES,
     MIXED,
     at_mixture,
+    is_seen_from_inside,
     new_lubricant,
     replaced,
     returning,
+    seen_from_inside,
 )
 from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
@@ -81,6 +83,7 @@ class AdiabaticWalls:
                 once=before is not None and solution.state.pressure.size > COARSE_NODES,
             )
         viscosities, stress = with_thinning(scene, solution, found, near)
+        viscosities = seen_from_inside(viscosities, solution)
         generated = float(found.dissipation.sum())
         return HeatedFilm(
             grid=solution.grid,
@@ -91,7 +94,7 @@ class AdiabaticWalls:
             inlet=mixture,
             outlet=None if np.isnan(found.outlet_temperature) else found.outlet_temperature,
             generated=generated,
-            to_lubricant=generated - found.stored,
+            to_lubricant=_taken(found),
             imbalance=found.imbalance,
             friction=None if rubs is None else rubs.friction,
             start=stress,
@@ -101,16 +104,26 @@ class AdiabaticWalls:
         )
 
 
-def viscosity_at_rest(scene: Bearing, solution: Solution, near: HeatedFilm | None) -> Array | None:
-    """The viscosity at rest at the temperatures of ``near``, with which a film that thins with shear was solved.
+def _taken(found: MeanTemperature) -> float:
+    """The heat that the lubricant takes away, W: in its flows, stored where walls move, and replaced in grooves."""
+    carried = sum(one.heat_out - one.heat_in for one in found.carried.values())
+    return carried + found.stored + float(found.to_walls.sum())
 
-    None of a lubricant that does not thin, and of a film with the viscosity of the scene.
+
+def viscosity_at_rest(scene: Bearing, solution: Solution, near: HeatedFilm | None) -> Array | None:
+    """The viscosity at rest at the temperatures of ``near``, where a film was solved with another one.
+
+    None of a film with the viscosity of the scene, and of one whose viscosities are those of its temperatures: the
+    lubricant does not thin with shear, and the end does not have the viscosity before it.
     """
-    liquid = scene.lubricant.liquid
-    if scene.lubricant.shear_thinning is None or solution.problem.at_nodes is None:
+    liquid, own = scene.lubricant.liquid, solution.problem.at_nodes
+    if own is None:
         return None
     known = start_of(near, solution)
-    return liquid.viscosity(np.full(solution.grid.shape, liquid.temperature) if known is None else known)[0]
+    warm = liquid.viscosity(np.full(solution.grid.shape, liquid.temperature) if known is None else known)[0]
+    if scene.lubricant.shear_thinning is not None:
+        return warm
+    return np.concatenate([own.shear[:-1], warm[-1:]]) if is_seen_from_inside(solution) else None
 
 
 def with_thinning(

@@ -17,8 +17,10 @@ from roughfilm.rom.bearing.thermal.field.coupling import HOTTEST
 from roughfilm.rom.bearing.thermal.field.heated import Mixture
 from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.cavitation.evaluation.flows import flow_along, node_balances
+from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.temperature.dissipation import dissipation, film_flows
 
 HeatedT = TypeVar("HeatedT")
 
@@ -161,6 +163,48 @@ def replaced(scene: Bearing, solution: Solution, liquid: Liquid) -> Array:
     first = covered & ~np.roll(covered, 1, axis=0) & (arriving > 0)
     capacity = float(liquid.heat(np.array([liquid.temperature]))[1][0])
     return np.where(first, arriving * capacity * (1 / kept - 1) / grid.areas, 0.0)
+
+
+def seen_from_inside(viscosities: Viscosities, solution: Solution) -> Viscosities:
+    """The viscosities of a film; where lubricant flows back into its end, those before the end at all nodes of it.
+
+    The direction of the flow through a node of the end depends on the viscosity there where the pressure of the end
+    feeds the sides. With the viscosity of what flows through it, films with new and with hot lubricant at the node
+    would alternate; that of the node before, where both mix, changes with the flow without a jump.
+    """
+    if solution.network.periodic[0] or not (node_balances(solution)[-1] > 0).any():
+        return viscosities
+
+    def inside(values: Array) -> Array:
+        return np.concatenate([values[:-1], values[-2:-1]])
+
+    return Viscosities(
+        flow=inside(viscosities.flow), shear=inside(viscosities.shear), carried=inside(viscosities.carried)
+    )
+
+
+def is_seen_from_inside(solution: Solution) -> bool:
+    """Whether a film was solved with the viscosities before its end at the nodes of the end."""
+    own = solution.problem.at_nodes
+    return own is not None and not solution.network.periodic[0] and np.array_equal(own.shear[-1], own.shear[-2])
+
+
+def power_of_end(solution: Solution, warm: Array) -> Array | None:
+    """The power, W, that a film dissipates at its end beyond that with the viscosities of the temperatures there.
+
+    None where the viscosities of the film at the end are those of its temperatures.
+
+    Parameters
+    ----------
+    warm : viscosities at the temperatures of the nodes, Pa s, shape (nx, ny).
+    """
+    own = solution.problem.at_nodes
+    if own is None or not is_seen_from_inside(solution):
+        return None
+    power = np.zeros(solution.grid.shape)
+    all_nodes = dissipation(solution, film_flows(solution))
+    power[-1] = all_nodes[-1] * (1 - warm[-1] / own.shear[-1])
+    return power
 
 
 def at_mixture(

@@ -78,6 +78,15 @@ def test_a_wall_has_its_given_temperature():
         assert result.fields[name].values == pytest.approx(55, abs=1e-6)
 
 
+def test_the_place_of_the_highest_temperature_lies_in_the_film():
+    """A hot wall has its temperature everywhere, so that the place may be anywhere, but not beyond the film."""
+    hot = {"kind": "temperature", "temperature": "90 degC"}
+    result = solved(scene(WEDGE, heat={"sliding_wall": hot}), 32)
+    for name, positions in (("temperature_max_x", "x"), ("temperature_max_y", "y")):
+        place, ends = result.quantities[name], result.fields[positions].values
+        assert place.uncertainty <= max(place.value - ends.min(), ends.max() - place.value)
+
+
 def test_a_turning_shaft_takes_no_heat_in_sum():
     result = solved(scene(JOURNAL, heat={"fixed_wall": CONDUCTING, "sliding_wall": "turning"}))
     assert value(result, "heat_to_sliding_wall") == pytest.approx(0, abs=1e-6 * value(result, "heat_generated"))

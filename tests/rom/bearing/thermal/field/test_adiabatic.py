@@ -104,6 +104,21 @@ def test_heat_leaves_as_it_comes_in(wedges):
     assert result.numerics.details["energy_imbalance"] < 1e-8
 
 
+@pytest.mark.parametrize("approach", ["1 mm/s", "-1 mm/s"])
+def test_walls_that_approach_or_part_leave_their_heat_to_the_lubricant(approach):
+    """Without heat to the walls the lubricant takes all of it, in its flows and where the film stores it."""
+    moving = {"speed": "10 m/s", "approach": approach}
+    result = solved(scene(WEDGE, motion=moving), 32)
+    generated = value(result, "heat_generated_per_width")
+    assert value(result, "heat_to_lubricant_per_width") == pytest.approx(generated, rel=1e-8)
+
+
+def test_a_starved_film_has_the_residual_of_its_viscosities():
+    """What the inlet supplies to a starved film is no error of it."""
+    result = solved(scene(WEDGE, boundary={"inlet": {"theta": 0.4}}), 32)
+    assert result.numerics.details["coupled_residual"] < 1e-4
+
+
 def test_the_numerics_state_the_iteration(wedges):
     details = wedges[64].numerics.details
     assert details["viscosity_change"] <= 2e-5
@@ -209,6 +224,15 @@ def test_a_full_bore_whose_lubricant_circulates_has_temperatures(viscosity):
     temperature = hot.fields["temperature"].values
     np.testing.assert_allclose(temperature, temperature[:, ::-1], atol=0.1)
     assert temperature.min() >= SUPPLIED - 0.1
+
+
+def test_a_supply_at_both_ends_feeds_the_sides():
+    """Where the flow turns along the end, no film alternates between new and hot lubricant there."""
+    oil = {"oil": "ISO VG 32", "temperature": f"{SUPPLIED} degC"}
+    geometry = JOURNAL | {"clearance": "80 um", "width": "70 mm", "eccentricity": 0.534}
+    result = solved(scene(geometry, "15.7 m/s", oil, boundary={"inlet": {"pressure": "1 MPa"}}), 24)
+    assert result.numerics.details["heated_films"] < 15
+    assert SUPPLIED < value(result, "temperature_max") < 90
 
 
 def test_lubricant_that_returns_without_a_side_runs_away():
