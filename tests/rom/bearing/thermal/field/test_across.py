@@ -130,7 +130,6 @@ def test_a_constant_viscosity_gives_the_isothermal_pressure():
             {"lubricant": {key: one for key, one in LUBRICANT.items() if key != "conductivity"}},
             "lubricant.conductivity",
         ),
-        ({"heat": {"fixed_wall": {"kind": "conducting", "thickness": "20 mm"}}}, "a thickness without a conductivity"),
         ({"geometry": LOBES | {"eccentricity": [0.2, 0.1]}, "heat": {"carried_over": 0.8}}, "carried_over is 0.8"),
     ],
 )
