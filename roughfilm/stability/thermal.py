@@ -12,6 +12,7 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.request import Request
 from roughfilm.stability.form import (
     BAD,
+    GOOD,
     MapOutcome,
     Probe,
     Spot,
@@ -277,7 +278,7 @@ def cases() -> Iterator[Case]:
 
 
 def _column(heating: float) -> str:
-    return f"{heating:g} (Na = {nahme(heating):.2g})"
+    return f"{heating:g} (Na = {nahme(heating):.3g})"
 
 
 REFUSED: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any], Mapping[str, Any]]] = {
@@ -352,7 +353,7 @@ def summary(spots: Sequence[Spot]) -> list[str]:
     """Sentences about the map: each group, the uncertainties, and films that run away."""
     lines = []
     for name, own in in_groups(spots).items():
-        if films := [spot.iterations for spot in own if spot.iterations]:
+        if films := [spot.iterations for spot in own if spot.iterations and spot.outcome in GOOD]:
             lines.append(f"{name}: {in_numbers(own)}; at most {max(films)} films on the finest grid.")
     compared, inside = (math.fsum(spot.numbers.get(name) or 0.0 for spot in spots) for name in ("compared", "inside"))
     if compared:
