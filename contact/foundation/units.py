@@ -238,11 +238,14 @@ def _by_pint(unit: str, base: str) -> float | None:
 
     try:
         parsed = _registry().parse_units(unit if unit[0] not in "*/" else f"1{unit}")
-        return float(_registry().Quantity(1.0, parsed).to(base).magnitude)
+        zero, one = (float(_registry().Quantity(value, parsed).to(base).magnitude) for value in (0.0, 1.0))
     except DimensionalityError:
         return None
     except Exception as error:  # pint raises tokenizer, attribute and type errors alike for text that is no unit
         raise ValueError(f"got unit {unit!r}, which is not known") from error
+    if zero != 0:
+        raise ValueError(f"got unit {unit!r}, whose zero is not that of {base}")
+    return one
 
 
 class SiNumber(float):

@@ -141,8 +141,7 @@ class AdviceTask:
 
     def grid_law(self, model: Model) -> Law | None:
         """The law of the error by the resolution of a model; None if there is none."""
-        laws = (self.table.grid(name, model.name, self.quantity) for name in self.kind.names_of_laws)
-        return next((law for law in laws if law is not None), None)
+        return self.table.grid(self.kind.name_of_laws, model.name, self.quantity)
 
     def beyond_grids(self, model: Model, resolution: int) -> str | None:
         """The name of a number outside the range of the law over resolutions of a model; None if there is none."""

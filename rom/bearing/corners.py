@@ -11,6 +11,13 @@ PRESSURE_TOLERANCE = 1e-9
 """Relative difference of two pressures up to which they are the same."""
 
 
+CARRIED = ("outlet_temperature", "effective_temperature")
+"""Temperatures that infinite flows of lubricant change."""
+
+PUMPED = ("heat_generated", "heat_to_lubricant")
+"""Heats that the pressures at the edges do with infinite flows."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Jump:
     """A jump of the pressure between an end of the film and the ``side`` "low" or "high", Pa.
@@ -72,3 +79,9 @@ def infinite_flows(solution: Solution) -> frozenset[str]:
     for jump in jumps(solution):
         names |= {f"{jump.end}_flow", f"{jump.end}_flow_per_width", f"side_leakage_{jump.side}", "side_leakage"}
     return frozenset(names)
+
+
+def unknown_by_infinite_flows(solution: Solution) -> frozenset[str]:
+    """The names of the flows that are infinite at corners, and of the temperatures and heats that follow from them."""
+    flows = infinite_flows(solution)
+    return flows | {*CARRIED, *PUMPED} if flows else flows

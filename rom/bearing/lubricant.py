@@ -146,7 +146,7 @@ class BearingLubricant(Fluid):
             try:
                 self.viscosity_at(np.array([self.temperature]))
             except InputError as error:
-                raise ValueError(str(error).removeprefix("lubricant.")) from None
+                raise ValueError(str(error).replace("lubricant.thermoviscosity", "temperature", 1)) from None
         return self
 
     def _determine(self, kinematic: bool, given: float | None) -> None:
@@ -159,7 +159,7 @@ class BearingLubricant(Fluid):
         try:
             value = float(self.viscosity_at(np.array([self.temperature]))[0][0])
         except InputError as error:
-            raise ValueError(str(error).removeprefix("lubricant.")) from None
+            raise ValueError(str(error).replace("lubricant.thermoviscosity", "temperature", 1)) from None
         if given is not None and not math.isclose(given, value, rel_tol=AGREEMENT):
             assert self.thermoviscosity is not None
             raise ValueError(

@@ -23,6 +23,7 @@ from roughfilm.rom.bearing.moving.over_time import OverTime
 from roughfilm.rom.bearing.roughness import AnyRoughness, RoughSurface, Sinusoid, StoredTable
 from roughfilm.rom.bearing.supply.patches import Patch, patches, supplied
 from roughfilm.rom.bearing.supply.tables import MAX_SUPPLIES, AnySupply
+from roughfilm.rom.bearing.thermal.checks import check_heat
 from roughfilm.rom.bearing.thermal.tables import Heat, Temperature
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, Roelands
@@ -235,6 +236,10 @@ class Bearing(Scene):
             except InputError as error:
                 raise ValueError(f"boundary.inlet.{error}") from None
         self._can_be_supplied()
+        supplies = {f"supply.{number}.temperature": one.temperature for number, one in enumerate(self.supply)}
+        check_heat(
+            self.lubricant, self.heat, {"boundary.inlet.temperature": self.boundary.inlet.temperature, **supplies}
+        )
         if isinstance(self.geometry, Ring) and self.geometry.endless:
             self._can_be_joined("joined pads")
         elif isinstance(self.geometry, Lobes) and self.geometry.joined:

@@ -11,7 +11,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.timing import one_time, working_time
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.bearing.corners import infinite_flows
+from roughfilm.rom.bearing.corners import unknown_by_infinite_flows
 from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
 from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL, FILM_STEP, Search, converted, under_load
@@ -138,7 +138,8 @@ def solve(
             films = partial(_films, among=among, ruptures=ruptures, tolerance=request.tolerance)
         found = _under_load(scene, cells, among, films, outputs, heat, progress)
     solution, quantities = found.levels[0]
-    of_factors, iterated = found.of_factors, outputs.iteration_uncertainties(solution, quantities)
+    of_factors = found.of_factors
+    iterated = outputs.iteration_uncertainties([grid for grid, _ in found.levels], quantities)
     more = {name: of_factors.get(name, 0.0) + iterated.get(name, 0.0) for name in {*of_factors, *iterated}}
     uncertainty = uncertainties(found.levels, more, found.balance, exact=found.exact, apart=found.apart)
     warnings = [
@@ -154,7 +155,7 @@ def solve(
     ]
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)
-    explained = infinite_flows(solution) | {*POSITIONS, *outputs.estimates}
+    explained = unknown_by_infinite_flows(solution) | {*POSITIONS, *outputs.estimates}
     if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value) and name not in explained]:
         warnings.append(f"{', '.join(unknown)}: unknown uncertainty, as the roughness has too few points")
     return Result(

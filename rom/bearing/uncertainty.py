@@ -3,9 +3,11 @@
 import math
 from collections.abc import Collection, Mapping, Sequence
 
+import numpy as np
+
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.bearing.corners import infinite_flows
-from roughfilm.rom.bearing.quantities import EXACT
+from roughfilm.rom.bearing.corners import unknown_by_infinite_flows
+from roughfilm.rom.bearing.quantities import EXACT, scene_positions
 from roughfilm.rom.cavitation.balance import FILM
 from roughfilm.rom.cavitation.evaluation.fronts import front_uncertainties
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_uncertainty
@@ -16,6 +18,9 @@ IMBALANCE_FACTOR = 10.0
 
 POSITIONS = ("film_start", "rupture")
 """Quantities that are positions x/L."""
+
+HOTTEST_PLACE = ("temperature_max_x", "temperature_max_y")
+"""Quantities that are the position of the highest temperature."""
 
 MIN_CELLS_OF_POSITIONS = 15
 """Number of cells along a side below which a grid does not show where a film begins or ends: it may lack the film."""
@@ -43,7 +48,7 @@ def uncertainties(
     It is the sum of that of the grid, at least that of fronts between its nodes, ``IMBALANCE_FACTOR`` times the
     relative error of the flow along the film (of a flow, relative to the largest flow), the relative error of the load
     (of a moment, relative to the load times the size of the film), and the contribution of the flow factors. Positions
-    without a film are unknown.
+    without a film are unknown. The highest temperature lies inside of the film, wherever it is.
 
     Parameters
     ----------
@@ -57,7 +62,8 @@ def uncertainties(
         return {}
     solution, quantities = levels[0]
     cells, values = [cells_of(grid) for grid, _ in levels], [level for _, level in levels]
-    unknown = infinite_flows(solution) | (frozenset() if (solution.kind == FILM).any() else frozenset(POSITIONS))
+    unknown = unknown_by_infinite_flows(solution)
+    unknown |= frozenset() if (solution.kind == FILM).any() else frozenset(POSITIONS)
     largest_flow = max((abs(one.value) for one in quantities.values() if one.unit == FLOW_UNIT), default=0.0)
     arm = abs(quantities["load"].value) * float(solution.grid.areas.sum()) ** 0.5 if "load" in quantities else 0.0
     least = front_uncertainties(solution, quantities["theta_min"].value) if "theta_min" in quantities else {}
@@ -77,7 +83,18 @@ def uncertainties(
             of_grid = max(grid_uncertainty([*known], [*known.values()]), least.get(name, 0.0), moved.get(name, 0.0))
             of_balance = size * (IMBALANCE_FACTOR * solution.imbalance + (balance or 0.0))
             result[name] = of_grid + of_balance + of_factors.get(name, 0.0)
+            if name in HOTTEST_PLACE:
+                result[name] = min(result[name], _farthest(solution, name, quantity.value))
     return result
+
+
+def _farthest(solution: Solution, name: str, place: float) -> float:
+    """The largest distance of a node from a position along x or y, in a film without ends by the nearest turn."""
+    along = name == HOTTEST_PLACE[0]
+    if along and solution.network.periodic[0]:
+        return float(solution.grid.spacing_x.sum()) / 2
+    positions = scene_positions(solution) if along else solution.grid.y
+    return float(np.abs(positions - place).max())
 
 
 def _apart(known: Mapping[float, float], least: float) -> dict[float, float]:

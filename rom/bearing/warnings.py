@@ -4,7 +4,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.rounding import share
-from roughfilm.rom.bearing.corners import infinite_flows, jumps
+from roughfilm.rom.bearing.corners import CARRIED, PUMPED, infinite_flows, jumps
 from roughfilm.rom.bearing.free.lay import StraightFactors
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.quantities import scene_positions
@@ -127,8 +127,9 @@ def _infinite_flows(scene: Bearing, solution: Solution) -> list[str]:
     corners = {(("gaps" if lobes else jump.end), jump.side): jump.difference for jump in found}
     named = ", ".join(f"{end} and {side} side ({by:+.3g} Pa)" for (end, side), by in corners.items())
     remedy = ", or [[supply]] with grooves that end before the sides" if lobes else ""
+    heated = "" if scene.lubricant.lacking else f"; {', '.join((*CARRIED, *PUMPED))} change with them"
     return [
         f"the pressure jumps between {named}: the flows through these edges are infinite, and "
-        f"{', '.join(sorted(infinite_flows(solution)))} grow with the logarithm of the cells; give both edges the same "
-        f"pressure{remedy}"
+        f"{', '.join(sorted(infinite_flows(solution)))} grow with the logarithm of the cells{heated}; give both "
+        f"edges the same pressure{remedy}"
     ]

@@ -154,7 +154,7 @@ class Kind:
     laws : name of the error laws of its scenes in the table of laws; "" for the name of the kind.
     variants : by the name of their error laws, whether entries of a scene have these laws in place of those of the
         kind.
-    additions : names of further error laws beside those of the kind, of models that only some of its scenes have.
+    samples : names of further sets of random scenes by which its models are judged, beside those of the kind.
     ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
@@ -199,7 +199,7 @@ class Kind:
     lawless: Callable[[Mapping[str, Any]], bool] = always_lawful
     laws: str = ""
     variants: Mapping[str, Callable[[Mapping[str, Any]], bool]] = field(default_factory=dict)
-    additions: tuple[str, ...] = ()
+    samples: tuple[str, ...] = ()
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
@@ -244,7 +244,7 @@ class Kind:
         """The kind with the compared quantities and the laws of a scene, from its entries by the names of tables."""
         own = next((name for name, belongs in self.variants.items() if belongs(entries)), "")
         if own:
-            return replace(self, laws=own, variants={}, additions=()).of(entries)
+            return replace(self, laws=own, variants={}).of(entries)
         for table, compared in self.compared_with.items():
             if entries.get(table) is not None:
                 return self._comparing(compared)
@@ -252,13 +252,8 @@ class Kind:
 
     @property
     def name_of_laws(self) -> str:
-        """The name of the error laws of its scenes in the table of laws, without additions."""
+        """The name of the error laws of its scenes in the table of laws."""
         return self.laws or self.name
-
-    @property
-    def names_of_laws(self) -> tuple[str, ...]:
-        """The names of all error laws of its scenes in the table of laws."""
-        return self.name_of_laws, *self.additions
 
     def seeking(self, quantity: str) -> "Kind":
         """The kind of scenes that ask for a quantity by a table of their own, such as the film under a load."""
@@ -306,13 +301,13 @@ def kind_of_name(name: str) -> Kind:
 
 
 def kind_of_laws(name: str) -> Kind:
-    """The kind whose scenes have the error laws of a name; KeyError if there is none."""
+    """The kind whose scenes have the error laws, or are a set of random scenes, of a name; KeyError if none is."""
     if name in kind_names():
         return kind_of_name(name)
     for kind in kinds().values():
         if name in kind.variants:
-            return replace(kind, laws=name, variants={}, additions=())
-        if name in kind.additions:
+            return replace(kind, laws=name, variants={})
+        if name in kind.samples:
             return kind
     raise KeyError(name)
 

@@ -28,6 +28,9 @@ REYN = 6894.757293168
 SAE_RANGE = (10.0, 140.0)
 """Temperatures of the chart to which the viscosities of SAE grades are fitted, °C."""
 
+LIQUID = (-100.0, 500.0)
+"""Temperatures between which a mineral oil may be liquid, °C."""
+
 INDEX = 95.0
 """Viscosity index of the ISO grades."""
 
@@ -113,14 +116,19 @@ def entries_of(name: str, temperature: float) -> dict[str, Any]:
     ('854.53', {'law': 'iso_vg', 'grade': 32})
     """
     grades = _iso_grades()
+    rows = next((one["rows"] for one in _data()["liquid"] if one["name"] == name), None)
+    if rows is not None:
+        return _of_rows(name, rows, temperature)
+    if not LIQUID[0] <= temperature - ZERO_CELSIUS <= LIQUID[1]:
+        raise ValueError(
+            f"temperature: got {celsius(temperature)}; it must be from {LIQUID[0]:g} °C to {LIQUID[1]:g} °C, between "
+            "which mineral oils are liquid; check the unit"
+        )
     if name in grades:
         law: dict[str, Any] = {"law": "iso_vg", "grade": grades[name]}
         return {"thermoviscosity": law, **_of_mineral_oil(density_15(GRADES[grades[name]]), temperature)}
-    for one in _data()["sae"]:
-        if one["name"] == name:
-            return _of_sae_grade(one["a"], one["b"], temperature)
-    (rows,) = (one["rows"] for one in _data()["liquid"] if one["name"] == name)
-    return _of_rows(name, rows, temperature)
+    (grade,) = (one for one in _data()["sae"] if one["name"] == name)
+    return _of_sae_grade(grade["a"], grade["b"], temperature)
 
 
 def density_15(warm: float) -> float:

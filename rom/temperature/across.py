@@ -10,6 +10,7 @@ from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.basis import Basis, basis
+from roughfilm.rom.temperature.dissipation import flowing
 from roughfilm.rom.temperature.equations import (
     Audit,
     Equations,
@@ -440,12 +441,13 @@ def _power(film: _Film, system: Equations, rise: Array) -> Array:
 
 
 def _largest(film: _Film, temperature: Array, peaks: Array) -> tuple[float, tuple[float, float, float]]:
-    """The largest temperature of the polynomials, K, and its position (x, y, ζ).
+    """The largest temperature of the polynomials, K, and its position (x, y, ζ), where lubricant flows.
 
     Only nodes whose points are almost as hot as the hottest one are searched.
     """
+    peaks = np.where(flowing(film.solution), peaks, -np.inf)
     places = np.linspace(0, 1, PLACES)
-    candidates = np.argwhere(peaks >= peaks.max() - NEAR_PEAK * float(np.ptp(peaks)))
+    candidates = np.argwhere(peaks >= peaks.max() - NEAR_PEAK * float(np.ptp(temperature)))
     values = temperature[candidates[:, 0], candidates[:, 1]] @ film.parts.values(places).T
     node, place = np.unravel_index(int(values.argmax()), values.shape)
     i, j = candidates[node]

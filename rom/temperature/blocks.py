@@ -18,11 +18,13 @@ def divergence(along, beside, before, below, i, j, m):  # type: ignore[no-untype
 
 
 @compiled
-def exchange(along, beside, supply, drift, push, fixed, periodic_x, periodic_y, entering, leaving, stored):  # type: ignore[no-untyped-def]  # fmt: skip
+def exchange(along, beside, supply, drift, push, fixed, periodic_x, periodic_y, renewed, entering, leaving, stored):  # type: ignore[no-untyped-def]  # fmt: skip
     """Write the flows of every point into the film and out of it at the fixed nodes, and the rest of each balance.
 
     At the first and last nodes along the sliding each point takes in or gives off what its own faces lack. At other
-    fixed nodes, those of sides and supplies, the flow from or to the outside has the profile of a flow by pressure.
+    fixed nodes, those of sides and supplies, the flow from or to the outside has the profile of a flow by pressure. At
+    nodes without any flow, whose temperature nothing else determines between walls that take no heat, each point takes
+    in and gives off the small flow ``renewed``.
     """
     nx, ny, size = along.shape
     for i in range(nx):
@@ -30,11 +32,21 @@ def exchange(along, beside, supply, drift, push, fixed, periodic_x, periodic_y, 
         ends = not periodic_x and (i == 0 or i == nx - 1)
         for j in range(ny):
             below = j - 1 if j > 0 else (ny - 1 if periodic_y else -1)
-            rest = 0.0
+            rest, through = 0.0, 0.0
             for m in range(size):
                 entering[i, j, m] = supply[j] * drift[i, j, m] if i == 0 and supply.size else 0.0
                 leaving[i, j, m] = 0.0
                 rest += divergence(along, beside, before, below, i, j, m) - entering[i, j, m]
+                through += abs(along[i, j, m]) + abs(beside[i, j, m]) + entering[i, j, m]
+                if before >= 0:
+                    through += abs(along[before, j, m])
+                if below >= 0:
+                    through += abs(beside[i, below, m])
+            if through == 0.0:
+                entering[i, j, :] = renewed
+                leaving[i, j, :] = renewed
+                stored[i, j] = 0.0
+                continue
             stored[i, j] = 0.0 if fixed[i, j] else rest
             if not fixed[i, j]:
                 continue

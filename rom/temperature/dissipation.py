@@ -3,12 +3,16 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.evaluation.flows import balances, flow_across, flow_along, stored_flow
 from roughfilm.rom.cavitation.evaluation.friction import pull_across, pull_along, radius_between
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
+
+STILL = 1e-9
+"""Flow through a node over the largest flow through a face up to which its lubricant is at rest."""
 
 GAUSS_POINTS = 5
 """Points of the integral of 1/θ over the pressure."""
@@ -36,6 +40,19 @@ def film_flows(solution: Solution) -> Flows:
     along, across = flow_along(solution), flow_across(solution)
     entering = balances(solution, along, across)
     return Flows(along=along, across=across, entering=entering, stored=stored_flow(solution))
+
+
+def flowing(solution: Solution) -> NDArray[np.bool_]:
+    """Whether lubricant flows through the nodes, shape (nx, ny); at all nodes of a film in which none flows.
+
+    Nodes without a flow, such as corners between edges of one pressure beside a wall at rest, have no temperature of
+    the film.
+    """
+    flows = film_flows(solution)
+    sizes = np.abs(flows.along), np.abs(flows.across)
+    through = sum(one + np.roll(one, 1, axis=axis) for axis, one in enumerate(sizes))
+    moves = np.asarray(through > STILL * max(float(one.max()) for one in sizes))
+    return moves if moves.any() else np.ones_like(moves)
 
 
 def dissipation(solution: Solution, flows: Flows) -> Array:

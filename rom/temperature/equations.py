@@ -21,6 +21,9 @@ NEWTON_STEPS = 20
 TEMPERATURE_ACCURACY = 1e-9
 """Step, K, at which they stop."""
 
+RENEWED = 1e-9
+"""Flow that each point of a node without any flow takes in and gives off, over the largest flow through a face."""
+
 OVERSHOOT = 1e-3
 """Amount over the range of the heat by which a value at a face may lie outside of those of its nodes."""
 
@@ -183,7 +186,8 @@ def equations(
     profiles = drift, push, heating, softening
     profile(near.viscosity, near.steepness, *across, thickness, *moving, *profiles, shear)
     divide(moved.sliding, moved.pressing, moved.across, drift, push, *nodes.periodic, along, beside)
-    exchange(along, beside, net.supplied, drift, push, net.fixed, *nodes.periodic, entering, leaving, stored)
+    renewed = RENEWED * max(float(np.abs(one).max()) for one in (along, beside))
+    exchange(along, beside, net.supplied, drift, push, net.fixed, *nodes.periodic, renewed, entering, leaving, stored)
     rising = np.ascontiguousarray((parts.weights[:, None] * parts.integrals / parts.weights).T)
     upward_flows(along, beside, entering, leaving, stored, parts.weights, rising, *nodes.periodic, upward)
     if reach is None:

@@ -62,7 +62,6 @@ def test_cost_of_temperatures_over_that_of_an_isothermal_film():
     for name, entries in SCENES.items():
         cpu = cost(entries)
         rows[name] = {"cpu_s": cpu, "ratios": {model: cpu[model] / cpu[MODELS[0]] for model in TARGETS}}
-        print(name, {model: round(ratio, 2) for model, ratio in rows[name]["ratios"].items()})
     with replacing(RESULTS, JSON) as scratch:
         scratch.write_text(json.dumps({**circumstances(), "load_average": os.getloadavg()[0], "rows": rows}, indent=1))
     for name in GIVEN:

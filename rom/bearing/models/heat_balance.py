@@ -5,7 +5,7 @@ from dataclasses import replace
 from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.rom.bearing.model import SOURCES, bearing_model
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.applies import has_temperature
+from roughfilm.rom.bearing.thermal.applies import heat_balance_applies
 from roughfilm.rom.ladder.model import Effect
 
 FILMS, SEARCH_S = 2.0, 0.04
@@ -27,7 +27,7 @@ _MODEL = bearing_model(
         }
     ),
     sources=(*SOURCES, "DIN 31652-1", "ISO 7902-1"),
-    applies=has_temperature,
+    applies=heat_balance_applies,
     in_plane=4e-6,
 )
 

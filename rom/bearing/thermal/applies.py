@@ -5,34 +5,46 @@ from dataclasses import replace
 from roughfilm.rom.bearing.film import averaging_applies
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.tables import Conducting, HalfSpace, Heat
+from roughfilm.rom.bearing.thermal.tables import HalfSpace, Heat
 from roughfilm.rom.ladder.model import Applicability
 
+WALLS = ("fixed_wall", "sliding_wall")
+SURROUNDINGS = ("heat_transfer",)
 
-def has_temperature(scene: Bearing, assumed: str = "one temperature of the film") -> Applicability:
+
+def has_temperature(scene: Bearing, taken: str) -> Applicability:
     """Whether the lubricant of a scene has what the energy of a film needs, with the entries that are missing.
 
     Parameters
     ----------
-    assumed : what the model assumes of the temperature, in words.
+    taken : the temperature that the model takes, in words.
     """
     if missing := scene.lubricant.lacking:
         names = ", ".join(f"lubricant.{name}" for name in missing)
         return Applicability(applies=False, reason=f"the scene has no temperature: {names} missing")
     if scene.roughness is None:
-        return Applicability(applies=True, reason=f"{assumed}; leaves out inertia and deformation")
+        return Applicability(applies=True, reason=f"takes {taken}; leaves out inertia and deformation")
     fits = averaging_applies(scene)
-    return Applicability(applies=fits.applies, reason=f"{assumed}; {fits.reason}")
+    return Applicability(applies=fits.applies, reason=f"takes {taken}; {fits.reason}" if fits.applies else fits.reason)
+
+
+def _without(fits: Applicability, scene: Bearing, keys: tuple[str, ...]) -> Applicability:
+    """The same, with the given keys of the table [heat] that the model leaves out."""
+    given = {} if scene.heat is None else {key: getattr(scene.heat, key) for key in keys}
+    left = [f"heat.{key}" for key, one in given.items() if one is not None and getattr(one, "kind", "") != "adiabatic"]
+    if not fits.applies or not left:
+        return fits
+    return replace(fits, reason=f"{fits.reason}; leaves out {' and '.join(left)}")
+
+
+def heat_balance_applies(scene: Bearing) -> Applicability:
+    """Whether the model of one temperature applies, with the walls of the scene that it leaves out."""
+    return _without(has_temperature(scene, "one temperature for the film"), scene, WALLS)
 
 
 def adiabatic_applies(scene: Bearing) -> Applicability:
-    """Whether the model of walls that take no heat applies, with the walls of the scene that it leaves out."""
-    fits, heat = has_temperature(scene, "the mean temperature across the film"), scene.heat or Heat()
-    walls = [name for name in ("fixed_wall", "sliding_wall") if getattr(heat, name).kind != "adiabatic"]
-    if not fits.applies or not walls:
-        return fits
-    named = " and ".join(f"heat.{name}" for name in walls)
-    return replace(fits, reason=f"{fits.reason}; leaves out {named}, as its walls take no heat")
+    """Whether the model of walls that take no heat applies, with what takes heat in the scene and is left out."""
+    return _without(has_temperature(scene, "the mean temperature across the film"), scene, WALLS + SURROUNDINGS)
 
 
 def across_applies(scene: Bearing) -> Applicability:
@@ -44,10 +56,6 @@ def across_applies(scene: Bearing) -> Applicability:
         return Applicability(
             applies=False, reason="the scene has no temperature across: lubricant.conductivity missing"
         )
-    for name in ("fixed_wall", "sliding_wall"):
-        wall = getattr(heat, name)
-        if isinstance(wall, Conducting) and wall.thickness is not None and wall.conductivity is None:
-            return Applicability(applies=False, reason=f"heat.{name}: a thickness without a conductivity; give it")
     lobes = isinstance(scene.geometry, Lobes) and not scene.geometry.single
     if heat.carried_over < 1 and (lobes or scene.supply):
         why = (
@@ -58,4 +66,4 @@ def across_applies(scene: Bearing) -> Applicability:
     if isinstance(heat.sliding_wall, HalfSpace) and (scene.motion.speed == 0 or scene.problem().shape.joined[0]):
         why = "heat.sliding_wall: a half space needs a film with an inlet past which it slides; take turning"
         return Applicability(applies=False, reason=why)
-    return fits
+    return _without(fits, scene, SURROUNDINGS)

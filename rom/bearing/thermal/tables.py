@@ -1,8 +1,8 @@
 """The table [heat] of a scene: what the walls and the surroundings of a film do with its heat."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, model_validator
 
 from roughfilm.contact.foundation.entries import InUnit, Length, Part, plain_number
 
@@ -39,7 +39,7 @@ class Conducting(Part):
 
     Attributes
     ----------
-    thickness : thickness d, m; 0 by default.
+    thickness : thickness d, m; 0 by default, if there is a heat transfer coefficient.
     conductivity : conductivity k, W/(m K), needed with a thickness.
     heat_transfer : heat transfer coefficient α behind it, W/(m² K); without it that side is at ``surroundings``.
     surroundings : temperature T_a of the surroundings, K; by default that of the supplied lubricant.
@@ -50,6 +50,18 @@ class Conducting(Part):
     conductivity: Conductivity | None = None
     heat_transfer: HeatTransfer | None = None
     surroundings: Temperature | None = None
+
+    @model_validator(mode="after")
+    def _has_a_resistance(self) -> Self:
+        if (self.thickness is None) != (self.conductivity is None):
+            missing, given = ("thickness", "conductivity") if self.thickness is None else ("conductivity", "thickness")
+            raise ValueError(f"{missing}: is missing beside {given}; give both, or leave both out")
+        if self.thickness is None and self.heat_transfer is None:
+            raise ValueError(
+                "is a conducting wall without a resistance; give thickness and conductivity, heat_transfer, or all of "
+                "them"
+            )
+        return self
 
 
 class Turning(Part):
@@ -126,3 +138,15 @@ class Heat(Part):
     area: Area | None = None
     surroundings: Temperature | None = None
     time_constant: Time | None = None
+
+    @model_validator(mode="after")
+    def _gives_off_heat_through_an_area(self) -> Self:
+        if (self.heat_transfer is None) != (self.area is None):
+            missing, given = ("heat_transfer", "area") if self.heat_transfer is None else ("area", "heat_transfer")
+            raise ValueError(f"{missing}: is missing beside heat.{given}; give both, or leave both out")
+        if self.surroundings is not None and self.area is None:
+            raise ValueError(
+                "surroundings: got a temperature without heat_transfer and area, by which heat leaves to them; give "
+                "both, or leave it out"
+            )
+        return self

@@ -50,7 +50,7 @@ class TemperatureLaw(Part):
         if not lowest > limit:
             raise InputError(
                 f"lubricant.thermoviscosity: got {celsius(lowest)}; the law {getattr(self, 'law', '')} has no "
-                f"viscosity up to {celsius(limit)}, raise the temperature or take another law"
+                f"viscosity up to {celsius(limit)}, raise the temperature, check its unit, or take another law"
             )
 
 

@@ -24,6 +24,7 @@ from roughfilm.stability.laws import MIXED, SEAL
 from roughfilm.stability.load import LOAD
 from roughfilm.stability.motion import MOTION
 from roughfilm.stability.pocket import DIMPLES, PADS, POCKET
+from roughfilm.stability.thermal import THERMAL
 from roughfilm.stability.windows import WINDOWS
 from roughfilm.terminal.console import NUMERICS, AsJson, Jobs, OutDirectory, make_directory, print_json, process_count
 from roughfilm.terminal.output_file import refuse_unwritable
@@ -35,7 +36,8 @@ EXAMPLES = (
 )
 
 FAMILIES: dict[str, StabilityMap] = {
-    one.name: one for one in (POCKET, DIMPLES, PADS, CAVITATION, CONTACT, CELL, SEAL, MIXED, LOAD, MOTION, GAP, WINDOWS)
+    one.name: one
+    for one in (POCKET, DIMPLES, PADS, CAVITATION, CONTACT, CELL, SEAL, MIXED, LOAD, MOTION, THERMAL, GAP, WINDOWS)
 }
 
 MAX_BYTES = 100_000_000

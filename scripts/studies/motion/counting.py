@@ -7,7 +7,7 @@ from typing import Any
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.march.solve import ERROR
 from scripts.studies.coverage.judge import UNCERTAINTY, Finding
-from scripts.studies.motion.random_scenes import drawn, drawn_in_time, drawn_with_heat
+from scripts.studies.motion.random_scenes import GIVEN, drawn, drawn_in_time, drawn_with_heat
 from scripts.studies.motion.solving import (
     Stated,
     Truth,
@@ -23,7 +23,8 @@ from scripts.studies.motion.solving import (
 SOLVE, DYNAMICS, MARCH = "solve", "dynamics", "march"
 """The commands that are judged."""
 
-THERMAL = ("heat_balance", "adiabatic", "across")
+ACROSS = "across"
+THERMAL = ("heat_balance", "adiabatic", ACROSS)
 """Models with temperatures, each judged as a command of its own."""
 
 ROUND_OFF = 1e-9
@@ -111,7 +112,7 @@ def _marched(kind: str, seed: int, cells: int) -> dict[str, tuple[Stated, Truth]
 
 
 def _heated(kind: str, seed: int, model: str, cells: int) -> dict[str, tuple[Stated, Truth]]:
-    scene = drawn_with_heat(kind, seed)
+    scene = drawn_with_heat(kind, seed, replaced=model != ACROSS)
     return {model: (solve_answer(scene, cells, model), heated_truth(scene, cells, model))}
 
 
@@ -121,7 +122,8 @@ def judged(kind: str, seed: int, command: str, stated: Stated, truth: Truth) -> 
     Each number counts once: what the scene prescribes, multiples of the friction and values per width are left out.
     """
     found = []
-    left_out = PRESCRIBED | (MULTIPLES if stated.values.keys() & {"friction", "friction_mean"} else frozenset())
+    multiples = MULTIPLES if stated.values.keys() & {"friction", "friction_mean"} else frozenset()
+    left_out = multiples if kind in GIVEN else PRESCRIBED | multiples
     for name in sorted((stated.uncertainty.keys() & truth.values.keys()) - left_out):
         if name.endswith("_per_width"):
             continue

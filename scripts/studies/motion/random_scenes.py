@@ -34,12 +34,13 @@ def drawn(kind: str, seed: int) -> Bearing:
     return _bearing(KINDS[kind](_generator(kind, seed)))
 
 
-def drawn_with_heat(kind: str, seed: int) -> Bearing:
+def drawn_with_heat(kind: str, seed: int, *, replaced: bool = True) -> Bearing:
     """Return the random bearing of a kind and a seed whose lubricant heats, between random walls.
 
     Parameters
     ----------
     kind : one of ``HEATED``.
+    replaced : whether new lubricant may replace hot one behind gaps and grooves, which `across` does not take.
 
     Raises
     ------
@@ -63,11 +64,12 @@ def drawn_with_heat(kind: str, seed: int) -> Bearing:
     shaft = entries["geometry"]["shape"] in ("lobes", "journal")
     sliding = ["adiabatic", given, "turning"] if shaft else ["adiabatic", given]
     fixed = ["adiabatic", given, conducting]
-    heat = {
+    walls = {
         "sliding_wall": sliding[int(rng.integers(len(sliding)))],
         "fixed_wall": fixed[int(rng.integers(len(fixed)))],
-        "carried_over": 1.0 if rng.uniform() < 0.5 else float(rng.uniform(0.5, 1)),
     }
+    carried_over = 1.0 if rng.uniform() < 0.5 else float(rng.uniform(0.5, 1))
+    heat = walls | ({"carried_over": carried_over} if replaced else {})
     return _bearing(entries | {"lubricant": lubricant, "heat": heat})
 
 
@@ -328,9 +330,8 @@ KINDS: Mapping[str, Callable[[Generator], Entries]] = {
 IN_TIME = ("journal", "arc", "lobes", "pad", "sector")
 """Kinds that are marched."""
 
-HEATED: Mapping[str, Callable[[Generator], Entries]] = {
-    **KINDS,
-    "given_pad": given_pad,
-    "given_journal": given_journal,
-}
+GIVEN: Mapping[str, Callable[[Generator], Entries]] = {"given_pad": given_pad, "given_journal": given_journal}
+"""Kinds of bearings at a given film, whose load follows."""
+
+HEATED: Mapping[str, Callable[[Generator], Entries]] = {**KINDS, **GIVEN}
 """Kinds of bearings that are solved with temperatures."""

@@ -177,6 +177,12 @@ def test_a_kinematic_viscosity_times_the_density_is_the_dynamic_one():
     assert dynamic_viscosity(7, "870 kg/m3") == 7
 
 
+@pytest.mark.parametrize("text", ["113 degF", "45 celsius", "45 degree_Celsius", "36 degRe"])
+def test_scales_of_temperature_with_another_zero_are_unknown(text):
+    with pytest.raises(ValueError, match=r"whose unit is not known; .*degC"):
+        to_si(text, "K")
+
+
 def test_numbers_that_python_marks_are_in_si_units():
     marked = in_si({"film": np.float64(3e-5), "size": (np.int32(2), 0.5), "kind": "pad", "joined": True})
     assert to_si(marked["film"], "m") == 3e-5

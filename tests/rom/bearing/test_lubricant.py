@@ -132,7 +132,7 @@ def test_temperatures_outside_of_a_range_have_a_warning():
         ({"heat_capacity": {}}, r"heat_capacity: give a number, such as"),
         ({"heat_capacity": "2 kW"}, r"heat_capacity: got '2 kW', which has the wrong dimension"),
         ({"heat_capacity": {"table": TABLE[::-1]}}, r"heat_capacity\.table: got 50 °C at row 2 after 150 °C"),
-        ({"temperature": "-250 degC"}, r"thermoviscosity: got -250 °C; the law iso_vg has no viscosity up to"),
+        ({"temperature": "-250 degC"}, r"lubricant\.temperature: got -250 °C; the law iso_vg has no viscosity up to"),
         ({"temperature": "50"}, r"lubricant\.temperature: got '50', a number without a unit"),
     ],
 )
@@ -147,7 +147,7 @@ def test_roelands_needs_a_liquid_above_its_limit():
     law = {"law": "roelands", "index": 1.1}
     with pytest.raises(InputError, match=r"thermoviscosity: got roelands for 1e-05 Pa s; that law needs more than"):
         scene(viscosity="1e-5 Pa*s", temperature="40 degC", thermoviscosity=law)
-    with pytest.raises(InputError, match=r"thermoviscosity: got -140 °C; the law roelands has no viscosity up to"):
+    with pytest.raises(InputError, match=r"lubricant\.temperature: got -140 °C; the law roelands has no viscosity up"):
         scene(viscosity="1 Pa*s", temperature="-140 degC", thermoviscosity=law)
 
 

@@ -26,6 +26,7 @@ from roughfilm.validation.sources import (
     lund_thomsen,
     patir_cheng,
     raimondi_boyd,
+    ross,
     wang_mueser,
 )
 
@@ -169,6 +170,19 @@ def test_the_highest_pad_temperature_of_fillon_is_met_and_his_theory_at_high_spe
     assert rows["4000 rpm", "theory"].verdict is Verdict.WITHIN
     assert 4 < rows["1000 rpm", "theory"].difference < 7
     assert abs(rows["1000 rpm", "measured"].difference) < 1
+
+
+def test_another_program_agrees_on_heat_and_the_second_method_contradicts_its_loads(monkeypatch):
+    lines = [one for one in ross.published("ross") if one["thinning [1/K]"] == "0.06"]
+    monkeypatch.setattr(ross, "published", lambda _name: lines)
+    rows = {row.quantity: row for row in answer("ross").rows}
+    assert {name: row.verdict for name, row in rows.items()} == {
+        "load": Verdict.SUSPECT,
+        "power loss": Verdict.WITHIN,
+        "highest temperature": Verdict.WITHIN,
+    }
+    second = float(rows["load"].evidence.rpartition(" ")[2])
+    assert rows["load"].ours == pytest.approx(second, rel=1e-3)
 
 
 def test_finite_volumes_meet_the_wide_slider_of_constant_viscosity():

@@ -14,6 +14,7 @@ from roughfilm.rom.bearing.thermal.field.mixing import (
     MIXED,
     at_mixture,
     new_lubricant,
+    power_of_end,
     returning,
     seen_from_inside,
     temperature_of,
@@ -70,8 +71,12 @@ class BetweenWalls:
         new = new_lubricant(scene, solution, liquid.temperature)
         back, rubs = returning(scene, solution, new), rubbing(scene, solution, near)
         sliding, fixed = walls_of(scene, liquid.temperature)
-        sheared = sheared_liquid(scene, solution)
+        thins = scene.lubricant.shear_thinning is not None
+        sheared, start = sheared_liquid(scene, solution), _start(near, solution, thins=thins)
         fine = near is not None and solution.state.pressure.size > COARSE_NODES
+        same = start is not None and near is not None and near.temperature.shape == solution.grid.shape
+        at_end = power_of_end(solution, start.viscosities.shear) if start is not None and same else None
+        added = [one for one in (at_end, None if rubs is None else rubs.power) if one is not None]
 
         def temperatures(inlet: float | None, known: TemperatureAcross | None) -> TemperatureAcross:
             return temperature_across(
@@ -80,10 +85,8 @@ class BetweenWalls:
                 sliding_wall=sliding,
                 fixed_wall=fixed,
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
-                added_power=None if rubs is None else rubs.power,
-                start=_start(near, solution, thins=scene.lubricant.shear_thinning is not None)
-                if known is None
-                else known,
+                added_power=sum(added[1:], added[0]) if added else None,
+                start=start if known is None else known,
                 tolerance=TOLERANCE,
                 renewals=RENEWALS if fine else None,
             )

@@ -12,6 +12,7 @@ from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm, hottest, star
 from roughfilm.rom.bearing.thermal.field.mixing import (
     MIXED,
     at_mixture,
+    is_seen_from_inside,
     new_lubricant,
     replaced,
     returning,
@@ -22,6 +23,7 @@ from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.shear_thinning.film import thinned
+from roughfilm.rom.temperature.dissipation import dissipation, film_flows
 from roughfilm.rom.temperature.mean import MeanTemperature, mean_temperature
 
 FREE_FILMS = 3
@@ -57,6 +59,7 @@ class AdiabaticWalls:
         before = near if near is not None and near.temperature.shape == solution.grid.shape else None
         slopes = before.slopes if before is not None and before.films >= FREE_FILMS else None
         rubs, at_rest = rubbing(scene, solution, near), viscosity_at_rest(scene, solution, near)
+        at_rest, at_end = kept_at_end(solution, at_rest)
 
         def temperatures(inlet: float | None, known: MeanTemperature | None) -> MeanTemperature:
             return mean_temperature(
@@ -65,7 +68,7 @@ class AdiabaticWalls:
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
                 exchange=cooled,
                 wall=new,
-                added_power=0.0 if rubs is None else rubs.power,
+                added_power=at_end if rubs is None else at_end + rubs.power,
                 at_rest=at_rest,
                 start=start_of(near, solution) if known is None else known.temperature,
                 slopes=slopes,
@@ -83,16 +86,17 @@ class AdiabaticWalls:
         viscosities, stress = with_thinning(scene, solution, found, near)
         viscosities = seen_from_inside(viscosities, solution)
         generated = float(found.dissipation.sum())
+        highest, place = hottest(found.temperature, solution)
         return HeatedFilm(
             grid=solution.grid,
             temperature=found.temperature,
             viscosities=viscosities,
-            highest=float(found.temperature.max()),
-            place=hottest(found.temperature, solution.grid),
+            highest=highest,
+            place=place,
             inlet=mixture,
             outlet=None if np.isnan(found.outlet_temperature) else found.outlet_temperature,
             generated=generated,
-            to_lubricant=generated - found.stored,
+            to_lubricant=_taken(found),
             imbalance=found.imbalance,
             friction=None if rubs is None else rubs.friction,
             start=stress,
@@ -100,6 +104,12 @@ class AdiabaticWalls:
             slopes=found.slopes,
             films=1 if before is None else before.films + 1,
         )
+
+
+def _taken(found: MeanTemperature) -> float:
+    """The heat that the lubricant takes away, W: in its flows, stored where walls move, and replaced in grooves."""
+    carried = sum(one.heat_out - one.heat_in for one in found.carried.values())
+    return carried + found.stored + float(found.to_walls.sum())
 
 
 def viscosity_at_rest(scene: Bearing, solution: Solution, near: HeatedFilm | None) -> Array | None:
@@ -112,6 +122,17 @@ def viscosity_at_rest(scene: Bearing, solution: Solution, near: HeatedFilm | Non
         return None
     known = start_of(near, solution)
     return liquid.viscosity(np.full(solution.grid.shape, liquid.temperature) if known is None else known)[0]
+
+
+def kept_at_end(solution: Solution, at_rest: Array | None) -> tuple[Array | None, Array | float]:
+    """The viscosity at rest, and the power of an end with the viscosity before it, W, which does not change with T."""
+    own = solution.problem.at_nodes
+    if own is None or not is_seen_from_inside(solution):
+        return at_rest, 0.0
+    known, power = np.array(own.shear if at_rest is None else at_rest), np.zeros(solution.grid.shape)
+    known[-1] = np.inf
+    power[-1] = np.maximum(dissipation(solution, film_flows(solution))[-1], 0.0)
+    return known, power
 
 
 def with_thinning(

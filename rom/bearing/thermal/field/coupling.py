@@ -22,8 +22,12 @@ LARGEST_OVER_MEAN = 50.0
 Slopes of the temperature are limited at extrema and fronts, where a node may vary by up to 1e-3 between iterations.
 """
 
-ACCEPTED, STALLED_FILMS, FALL = 1e-3, 6, 0.5
-"""Difference that is accepted, and stated, if in so many films it has not fallen to this part of the least before."""
+ACCEPTED, FALL = ((6, 1e-3), (20, 1e-2)), 0.5
+"""Differences that are accepted, and stated, if in so many films they have not fallen to this part of the least before.
+
+The larger one is met where the pressure jumps at a corner, or lubricant circulates, so that its direction changes with
+every film at a few nodes.
+"""
 
 MAX_FILMS = 60
 """Largest number of films in one iteration; three to eight are usual."""
@@ -141,7 +145,9 @@ def coupled(
 
     Source: Anderson 1965, doi:10.1145/321296.321305; Walker and Ni 2011, doi:10.1137/10078356X.
     """
-    memory, changes, hottest = Memory(), [], []
+    memory = Memory()
+    changes: list[float] = []
+    hottest: list[float] = []
     film, heated = _with_temperatures(film, again, heating, near)
     for _ in range(MAX_FILMS):
         used, following = own_logarithms(film.solution), logarithms(heated.viscosities)
@@ -219,9 +225,10 @@ def _with_temperatures(
 
 def _stalls(changes: Sequence[float]) -> bool:
     """Whether differences are small and no longer fall, as where slopes of the temperature are limited."""
-    if len(changes) <= STALLED_FILMS or changes[-1] > ACCEPTED:
-        return False
-    return min(changes[-STALLED_FILMS:]) > FALL * min(changes[:-STALLED_FILMS])
+    return any(
+        len(changes) > films and changes[-1] <= accepted and min(changes[-films:]) > FALL * min(changes[:-films])
+        for films, accepted in ACCEPTED
+    )
 
 
 def contraction(changes: Sequence[float]) -> float:

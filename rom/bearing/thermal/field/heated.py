@@ -10,6 +10,7 @@ from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.grid import Grid
 from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.temperature.dissipation import flowing
 
 SAME = 1e-4
 """Difference of two temperatures over the rise of the temperature in the film, below which both are the largest."""
@@ -88,15 +89,19 @@ class HeatedFilm:
     films: int = 1
 
 
-def hottest(temperature: Array, grid: Grid) -> tuple[float, float]:
-    """The position (x, y) of the largest temperature: the first along, and there the nearest to the middle."""
-    most = float(temperature.max())
-    hot = temperature >= most - SAME * (most - float(temperature.min()))
+def hottest(temperature: Array, solution: Solution) -> tuple[float, tuple[float, float]]:
+    """The largest temperature where lubricant flows, K, and its position (x, y).
+
+    The position is the first along, and there the nearest to the middle.
+    """
+    grid, flows = solution.grid, flowing(solution)
+    most = float(temperature[flows].max())
+    hot = flows & (temperature >= most - SAME * (most - float(temperature.min())))
     i = int(np.argmax(hot.any(axis=1)))
     rows = np.flatnonzero(hot[i])
     middle = float(grid.y[0] + grid.y[-1]) / 2
     j = rows[int(np.argmin(np.round(np.abs(grid.y[rows] - middle) / (abs(middle) or 1.0), ROUNDED)))]
-    return float(grid.x[i]), float(grid.y[j])
+    return most, (float(grid.x[i]), float(grid.y[j]))
 
 
 def start_of(near: HeatedFilm | None, solution: Solution) -> Array | None:

@@ -20,6 +20,7 @@ from roughfilm.rom.cavitation.evaluation.flows import flow_along, node_balances
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.temperature.dissipation import dissipation, film_flows
 
 HeatedT = TypeVar("HeatedT")
 
@@ -191,6 +192,30 @@ def seen_from_inside(viscosities: Viscosities, solution: Solution) -> Viscositie
     )
 
 
+def is_seen_from_inside(solution: Solution) -> bool:
+    """Whether a film was solved with the viscosities before its end at the nodes of the end."""
+    own = solution.problem.at_nodes
+    return own is not None and not solution.network.periodic[0] and np.array_equal(own.shear[-1], own.shear[-2])
+
+
+def power_of_end(solution: Solution, warm: Array) -> Array | None:
+    """The power, W, that a film dissipates at its end beyond that with the viscosities of the temperatures there.
+
+    None where the viscosities of the film at the end are those of its temperatures.
+
+    Parameters
+    ----------
+    warm : viscosities at the temperatures of the nodes, Pa s, shape (nx, ny).
+    """
+    own = solution.problem.at_nodes
+    if own is None or not is_seen_from_inside(solution):
+        return None
+    power = np.zeros(solution.grid.shape)
+    all_nodes = dissipation(solution, film_flows(solution))
+    power[-1] = all_nodes[-1] * (1 - warm[-1] / own.shear[-1])
+    return power
+
+
 def at_mixture(
     solve: Callable[[float, HeatedT | None], HeatedT],
     image: Callable[[HeatedT], float],
@@ -209,7 +234,7 @@ def at_mixture(
     solve : solve(temperature, near), the temperatures of the film, K, for a temperature at the inlet.
     image : image(temperatures), the temperature of their mixture, K.
     first : mixture from which the iteration starts.
-    roughly : whether an error of ``ROUGHLY_MIXED``, or a part of the first one, is small enough, and the slope is known.
+    roughly : whether an error of ``ROUGHLY_MIXED``, or a part of the first one, is small enough; the slope stays.
 
     Returns
     -------

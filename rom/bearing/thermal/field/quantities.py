@@ -1,6 +1,6 @@
 """The quantities, fields and uncertainties of a film with temperatures."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,12 +11,11 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.field.coupling import FIELD_TOLERANCE, Heating
 from roughfilm.rom.bearing.thermal.field.films import HeatedSolution
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
+from roughfilm.rom.bearing.thermal.field.hot_spots import circulating_uncertainty
 from roughfilm.rom.bearing.thermal.field.residual import iteration
 from roughfilm.rom.bearing.thermal.field.rubbing import with_friction
+from roughfilm.rom.bearing.uncertainty import HOTTEST_PLACE
 from roughfilm.rom.cavitation.solve import Solution
-
-PLACES = ("temperature_max_x", "temperature_max_y")
-"""Quantities that are the position of a node."""
 
 SLOWEST = 0.9
 """Contraction above which the error that an iteration leaves is not extrapolated farther."""
@@ -85,7 +84,7 @@ class HeatedOutputs:
         )
         supplied = scene.lubricant.liquid.temperature - ZERO_CELSIUS
         for name, one in heated.items():
-            size = one.value - supplied if one.unit == "degC" else 0.0 if name in PLACES else one.value
+            size = one.value - supplied if one.unit == "degC" else 0.0 if name in HOTTEST_PLACE else one.value
             own[name] = relative * abs(size)
         return own
 
@@ -140,18 +139,25 @@ def _quantities(solution: Solution, found: HeatedFilm) -> dict[str, Quantity]:
     return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
 
 
-def iteration_uncertainties(solution: Solution, quantities: Mapping[str, Quantity]) -> dict[str, float]:
+def iteration_uncertainties(levels: Sequence[Solution], quantities: Mapping[str, Quantity]) -> dict[str, float]:
     """The uncertainty of each quantity that the iteration of film and temperatures leaves, in its unit.
 
     An error of ln η changes loads, friction and flows by as much relative to them, and temperatures by that over the
-    change of ln η with T; the largest temperature is that of one node. Positions of nodes are uncertain by a cell.
+    change of ln η with T; the largest temperature is that of one node, and another one may be warmer on a finer grid
+    (:func:`roughfilm.rom.bearing.thermal.field.hot_spots.circulating_uncertainty`). Positions of nodes are uncertain by
+    a cell.
+
+    Parameters
+    ----------
+    levels : the films on their grids, the finest first.
     """
+    solution = levels[0]
     if not isinstance(solution, HeatedSolution):
         return {}
     contraction, grid, thinning = min(solution.contraction, SLOWEST), solution.grid, _thinning(solution)
     left = solution.changes[-1] * max(contraction / (1 - contraction), 1.0)
     special = {
-        "temperature_max": solution.largest / thinning,
+        "temperature_max": solution.largest / thinning + circulating_uncertainty(levels),
         "temperature_max_x": float(grid.spacing_x.max()),
         "temperature_max_y": float(grid.spacing_y.max()),
     }

@@ -31,7 +31,10 @@ def residual_of(solution: Solution, viscosities: Viscosities) -> float:
         viscosities=viscosities,
     )
     varied = replace(solution, problem=problem, network=replace(net, storage=before.storage, stored=before.stored))
-    balances = np.abs(node_balances(varied)[(solution.kind == FILM) | (solution.kind == CAVITY)])
+    net_flows = node_balances(varied)
+    if net.supply is not None:
+        net_flows[0] -= net.supply
+    balances = np.abs(net_flows[(solution.kind == FILM) | (solution.kind == CAVITY)])
     along, across = flow_along(varied), flow_across(varied)
     if not before.periodic[0]:
         along = along[:-1]

@@ -100,6 +100,15 @@ def test_a_march_ends_at_the_film_of_heat_balance(heat):
     assert march.quantities["temperature_max"].value >= march.quantities["temperature_mean"].value
 
 
+def test_a_pad_with_an_inlet_ends_at_the_temperature_of_heat_balance():
+    pad = {"shape": "linear", "length": "20 mm", "width": "20 mm", "film": "20 um", "rise": "20 um"}
+    march = marched(pad, end=8 * TAU, steps=40, heat=SLOW)
+    steady = find("bearing", "heat_balance").solve(scene_of(pad), Request(resolution=CELLS[0]))
+    quantity = steady["effective_temperature"]
+    assert quantity.value > COLD + 1
+    assert march["temperature"][-1] == pytest.approx(quantity.value, abs=quantity.uncertainty)
+
+
 def test_a_viscosity_that_does_not_change_leaves_the_path():
     """The path and all other numbers are those of the isothermal march to the last bit."""
     options = LOADED | {"oil": STIFF, "body": {"start": {"eccentricity": [0.1, 0]}}}

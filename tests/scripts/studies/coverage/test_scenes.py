@@ -4,6 +4,7 @@ from collections import Counter
 
 import pytest
 
+from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.ladder.kind import kind_of_scene
 from roughfilm.rom.ladder.scene import scene_entries
 from scripts.studies.coverage.drawing import drawn
@@ -30,12 +31,26 @@ def test_bearings_have_every_shape_texture_and_feed(bearings):
 
 
 @pytest.mark.parametrize(
-    "kind", ["bearing", "free_bearing", "placed_bearing", "dry_contact", "seal", "rough_gap", "dimples"]
+    "kind",
+    ["bearing", "free_bearing", "placed_bearing", "heated_bearing", "dry_contact", "seal", "rough_gap", "dimples"],
 )
 def test_a_seed_is_one_scene(kind):
     first, again, other = (scene_entries(drawn(kind, seed)) for seed in (20003, 20003, 20004))
     assert first == again
     assert first != other
+
+
+def test_heated_bearings_heat_little_and_much_between_walls_of_every_kind():
+    heated = [drawn("heated_bearing", seed) for seed in range(20000, 20000 + COUNT)]
+    assert {kind_of_scene(one).name_of_laws for one in heated} == {"bearing"}
+    assert all(not one.lubricant.lacking and one.load is None for one in heated)
+    numbers = [bearing_numbers(one)["heating_number"] for one in heated]
+    assert min(numbers) < 0.03
+    assert max(numbers) > 3
+    assert {one.heat.fixed_wall.kind for one in heated} == {"adiabatic", "temperature", "conducting"}
+    walls = {one.heat.sliding_wall.kind for one in heated}
+    assert walls >= {"adiabatic", "temperature", "half_space"}
+    assert {one.lubricant.thermoviscosity.law for one in heated} == {"exponential", "iso_vg"}
 
 
 @pytest.mark.parametrize(("kind", "loaded"), [("free_bearing", True), ("placed_bearing", False)])

@@ -7,8 +7,8 @@ import pytest
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.ladder.scene import scene_entries
 from scripts.studies.motion import __main__ as study
-from scripts.studies.motion.counting import MARCH, SOLVE, judged
-from scripts.studies.motion.random_scenes import IN_TIME, KINDS, drawn, drawn_in_time
+from scripts.studies.motion.counting import MARCH, SOLVE, count_scene, counted_of, judged
+from scripts.studies.motion.random_scenes import HEATED, IN_TIME, KINDS, drawn, drawn_in_time, drawn_with_heat
 from scripts.studies.motion.solving import RATIOS, Stated, Truth, extrapolated, nearest
 
 
@@ -25,6 +25,22 @@ def test_a_scene_in_time_has_a_motion_and_an_end(kind):
         scene, end = drawn_in_time(kind, seed)
         assert end > 0
         assert scene.motion.over_time is not None or scene.body is not None
+
+
+@pytest.mark.parametrize("kind", HEATED)
+def test_a_scene_with_heat_has_walls_and_a_viscosity_over_temperature(kind):
+    scene, again = drawn_with_heat(kind, 3), drawn_with_heat(kind, 3)
+    assert scene_entries(scene) == scene_entries(again)
+    assert scene.heat is not None
+    assert scene.lubricant.thermoviscosity is not None
+
+
+def test_temperatures_and_heat_are_judged_too():
+    found = counted_of(count_scene("given_pad", 1, "adiabatic", 16))
+    assert not found.refused
+    names = {one.quantity for one in found.found}
+    assert {"temperature_max", "temperature_mean", "heat_generated", "load", "inlet_flow"} <= names
+    assert {one.model for one in found.found} == {"adiabatic"}
 
 
 def test_values_of_second_order_are_extrapolated_to_their_limit():

@@ -78,6 +78,28 @@ def test_a_wall_has_its_given_temperature():
         assert result.fields[name].values == pytest.approx(55, abs=1e-6)
 
 
+def test_lubricant_at_rest_in_a_recess_has_the_temperature_of_its_supply():
+    """No lubricant flows inside of the recess of a pad at rest; what leaves is heated by its pressure, p/(ρ c)."""
+    recess = {"kind": "pocket", "x": "25 mm", "length": "20 mm", "extent": "20 mm", "depth": "1 mm"}
+    pad = {"shape": "parallel", "length": "50 mm", "width": "40 mm", "film": "20 um"}
+    still = {"motion": {"speed": "0 m/s"}, "supply": [{**recess, "pressure": "3 MPa", "temperature": "35 degC"}]}
+    result = solved(scene(pad, **still), 48)
+    temperature = result.fields["temperature"].values
+    assert temperature.min() == pytest.approx(35, abs=1e-3)
+    assert temperature[24, 24] == pytest.approx(35, abs=1e-6)
+    density, capacity = (float(LUBRICANT[name].split()[0]) for name in ("density", "heat_capacity"))
+    assert value(result, "outlet_temperature") == pytest.approx(35 + 3e6 / (density * capacity), abs=1e-3)
+
+
+def test_the_place_of_the_highest_temperature_lies_in_the_film():
+    """A hot wall has its temperature everywhere, so that the place may be anywhere, but not beyond the film."""
+    hot = {"kind": "temperature", "temperature": "90 degC"}
+    result = solved(scene(WEDGE, heat={"sliding_wall": hot}), 32)
+    for name, positions in (("temperature_max_x", "x"), ("temperature_max_y", "y")):
+        place, ends = result.quantities[name], result.fields[positions].values
+        assert place.uncertainty <= max(place.value - ends.min(), ends.max() - place.value)
+
+
 def test_a_turning_shaft_takes_no_heat_in_sum():
     result = solved(scene(JOURNAL, heat={"fixed_wall": CONDUCTING, "sliding_wall": "turning"}))
     assert value(result, "heat_to_sliding_wall") == pytest.approx(0, abs=1e-6 * value(result, "heat_generated"))

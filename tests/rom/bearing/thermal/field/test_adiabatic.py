@@ -104,6 +104,44 @@ def test_heat_leaves_as_it_comes_in(wedges):
     assert result.numerics.details["energy_imbalance"] < 1e-8
 
 
+@pytest.mark.parametrize("approach", ["1 mm/s", "-1 mm/s"])
+def test_walls_that_approach_or_part_leave_their_heat_to_the_lubricant(approach):
+    """Without heat to the walls the lubricant takes all of it, in its flows and where the film stores it."""
+    moving = {"speed": "10 m/s", "approach": approach}
+    result = solved(scene(WEDGE, motion=moving), 32)
+    generated = value(result, "heat_generated_per_width")
+    assert value(result, "heat_to_lubricant_per_width") == pytest.approx(generated, rel=1e-8)
+
+
+def test_temperatures_of_infinite_flows_are_unknown():
+    """A jump of the pressure at a corner makes the flow infinite, and what it carries away follows it."""
+    wedge = scene(WEDGE | {"width": "80 mm"}, boundary={"inlet": {"pressure": "1 MPa"}})
+    result = solved(wedge, 24)
+    for name in ("outlet_temperature", "heat_generated", "heat_to_lubricant"):
+        assert result.quantities[name].uncertainty is None, name
+    assert result.quantities["temperature_max"].uncertainty is not None
+    (jump,) = (one for one in result.warnings if "pressure jumps" in one)
+    assert "outlet_temperature" in jump
+    assert not any("too few points" in one for one in result.warnings)
+
+
+@pytest.mark.parametrize("model", [ADIABATIC, find("bearing", "across")], ids=lambda model: model.name)
+def test_corners_without_a_flow_are_not_the_hottest_place(model):
+    """A pad at rest, fed with colder lubricant than that of the bath, is nowhere as hot as the bath."""
+    pad = {"shape": "parallel", "length": "50 mm", "width": "40 mm", "film": "20 um"}
+    recess = {"kind": "pocket", "x": "25 mm", "length": "20 mm", "extent": "20 mm", "depth": "1 mm"}
+    cold = [{**recess, "pressure": "3 MPa", "temperature": "20 degC"}]
+    conducting = {**LUBRICANT, "conductivity": "0.14 W/(m*K)"}
+    result = solved(scene(pad, speed="0 m/s", supply=cold, lubricant=conducting), 24, model)
+    assert 21 < value(result, "temperature_max") < 25
+
+
+def test_a_starved_film_has_the_residual_of_its_viscosities():
+    """What the inlet supplies to a starved film is no error of it."""
+    result = solved(scene(WEDGE, boundary={"inlet": {"theta": 0.4}}), 32)
+    assert result.numerics.details["coupled_residual"] < 1e-4
+
+
 def test_the_numerics_state_the_iteration(wedges):
     details = wedges[64].numerics.details
     assert details["viscosity_change"] <= 2e-5

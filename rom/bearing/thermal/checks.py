@@ -1,0 +1,54 @@
+"""Checks of what a scene says about heat, against its lubricant."""
+
+from collections.abc import Mapping
+
+from roughfilm.rom.bearing.lubricant import BearingLubricant
+from roughfilm.rom.bearing.thermal.tables import Heat
+from roughfilm.rom.lubricants.thermal.law import celsius
+
+COLDER, WARMER = 200.0, 500.0
+"""Largest differences of a temperature in a scene from that of the supplied lubricant, K; a larger one is a typing
+error such as K in place of degC, and no lubricant stays liquid over it."""
+
+
+def check_heat(lubricant: BearingLubricant, heat: Heat | None, entering: Mapping[str, float | None]) -> None:
+    """Raise ValueError for heat in a scene without temperature, and for temperatures far from the lubricant's.
+
+    Parameters
+    ----------
+    lubricant : the lubricant of the scene.
+    heat : its table [heat].
+    entering : temperatures of lubricant that enters, K, by their keys.
+    """
+    given = {key: one for key, one in {**entering, **_temperatures(heat)}.items() if one is not None}
+    place = next(iter(given), None) if heat is None else "heat"
+    if place is None:
+        return
+    if lubricant.lacking:
+        missing = " and ".join(f"lubricant.{key}" for key in lubricant.lacking)
+        one = len(lubricant.lacking) == 1
+        raise ValueError(
+            f"{place}: got one, but the scene has no temperature without {missing}; give {'it' if one else 'them'}, "
+            "name an oil, or leave it out"
+        )
+    supplied = lubricant.temperature
+    assert supplied is not None
+    for key, temperature in given.items():
+        if not supplied - COLDER <= temperature <= supplied + WARMER:
+            raise ValueError(
+                f"{key}: got {celsius(temperature)}; it must be from {celsius(supplied - COLDER)} to "
+                f"{celsius(supplied + WARMER)}, {COLDER:g} K below to {WARMER:g} K above lubricant.temperature; check "
+                "the unit"
+            )
+
+
+def _temperatures(heat: Heat | None) -> dict[str, float | None]:
+    """The temperatures of a table [heat], K, by their keys."""
+    if heat is None:
+        return {}
+    walls = {
+        f"heat.{wall}.{key}": getattr(getattr(heat, wall), key, None)
+        for wall in ("fixed_wall", "sliding_wall")
+        for key in ("temperature", "surroundings")
+    }
+    return {**walls, "heat.surroundings": heat.surroundings}

@@ -1,0 +1,56 @@
+"""The uncertainty of the largest temperature of lubricant that circulates around a bore."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.thermal.field.films import HeatedSolution
+from roughfilm.rom.bearing.thermal.field.heated import start_of
+from roughfilm.rom.cavitation.evaluation.grids import GRID_SAFETY_FACTOR, ORDERS, cells_of
+from roughfilm.rom.cavitation.solve import Solution
+
+GRIDS = 3
+"""Largest number of grids from which the temperature of a node is extrapolated."""
+
+
+def circulating_uncertainty(levels: Sequence[Solution]) -> float:
+    """The uncertainty of the largest temperature by places that no grid resolves, K; 0 of films that do not circulate.
+
+    Beside an open side, lubricant that circulates around a full bore leaves the film slowly. Its temperature rises with
+    the cells there, and may become the largest one on a finer grid (:func:`warmer_elsewhere`).
+
+    Parameters
+    ----------
+    levels : the films on their grids, the finest first.
+    """
+    heated = [one for one in levels[:GRIDS] if isinstance(one, HeatedSolution)]
+    if len(heated) < 2 or not heated[0].network.periodic[0] or heated[0].problem.shape.idle:
+        return 0.0
+    finest = heated[0]
+    fields = [start_of(one.heated, finest) for one in heated]
+    return warmer_elsewhere([one for one in fields if one is not None], [cells_of(one) for one in heated])
+
+
+def warmer_elsewhere(temperatures: Sequence[Array], cells: Sequence[float]) -> float:
+    """By how much another node may become warmer than the warmest one, beyond the uncertainty of that one, K.
+
+    A node whose temperature T rises from the coarser grid by d may rise by e = s d/((n/n₁)^p - 1) more, with the safety
+    factor s, and the order p observed on three grids within ``ORDERS``; the lowest one with two grids and with changes
+    of different signs. The result is the largest T + e less that of the warmest node.
+
+    Parameters
+    ----------
+    temperatures : the temperatures on two or more grids at the nodes of the finest one, K, from fine to coarse.
+    cells : numbers of cells along a side of these grids.
+
+    Source: Roache 1994, doi:10.1115/1.2910291.
+    """
+    here, change = temperatures[0], temperatures[0] - temperatures[1]
+    order = np.full(here.shape, ORDERS[0])
+    if len(temperatures) > 2:
+        before = temperatures[1] - temperatures[2]
+        same = change * before > 0
+        order[same] = np.clip(np.log(before[same] / change[same]) / np.log(cells[0] / cells[1]), *ORDERS)
+    bound = here + GRID_SAFETY_FACTOR * np.maximum(change, 0.0) / ((cells[0] / cells[1]) ** order - 1)
+    return max(float(bound.max() - bound.flat[int(here.argmax())]), 0.0)

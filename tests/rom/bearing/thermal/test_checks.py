@@ -1,0 +1,79 @@
+"""What a scene says about heat is refused in one line where it has no effect or no sense."""
+
+import pytest
+
+import roughfilm as rf
+from roughfilm.contact.foundation.errors import InputError
+
+PAD = {
+    "name": "pad",
+    "kind": "bearing",
+    "geometry": {"shape": "linear", "length": "20 mm", "width": "20 mm", "film": "20 um", "rise": "20 um"},
+    "lubricant": {"oil": "ISO VG 32", "temperature": "45 degC"},
+    "motion": {"speed": "5 m/s"},
+}
+PLAIN = {"viscosity": "20 mPa*s"}
+HOLE = {"kind": "hole", "diameter": "2 mm", "x": "10 mm", "pressure": "1 bar", "temperature": "40 degC"}
+LAW = {"law": "exponential", "temperature_coefficient": "0.03 1/K"}
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"lubricant": PLAIN, "heat": {}}, r"heat: got one, but the scene has no temperature without lubricant\.therm"),
+        ({"lubricant": PLAIN, "supply": [HOLE]}, r"supply\.0\.temperature: got one, but the scene has no temperature"),
+        (
+            {"lubricant": PLAIN, "boundary": {"inlet": {"temperature": "40 degC"}}},
+            r"boundary\.inlet\.temperature: got one, but the scene has no temperature without lubricant\.thermoviscos",
+        ),
+        (
+            {"lubricant": {**PLAIN, "temperature": "45 degC", "density": "860 kg/m^3", "thermoviscosity": LAW}}
+            | {"heat": {}},
+            r"heat: got one, but the scene has no temperature without lubricant\.heat_capacity; give it, name an oil",
+        ),
+        ({"heat": {"fixed_wall": "conducting"}}, r"heat\.fixed_wall: is a conducting wall without a resistance; give"),
+        (
+            {"heat": {"sliding_wall": {"kind": "conducting", "thickness": "5 mm"}}},
+            r"heat\.sliding_wall\.conductivity: is missing beside thickness",
+        ),
+        (
+            {"heat": {"fixed_wall": {"kind": "conducting", "conductivity": "50 W/(m*K)"}}},
+            r"heat\.fixed_wall\.thickness: is missing beside conductivity",
+        ),
+        (
+            {"heat": {"surroundings": "20 degC"}},
+            r"heat\.surroundings: got a temperature without heat_transfer and",
+        ),
+        (
+            {"heat": {"fixed_wall": {"kind": "temperature", "temperature": "40 K"}}},
+            r"heat\.fixed_wall\.temperature: got -233\.1 °C; it must be from -155 °C to 545 °C, .*; check the unit",
+        ),
+        ({"supply": [HOLE | {"temperature": "40 K"}]}, r"supply\.0\.temperature: got -233\.1 °C; it must be from"),
+        (
+            {"lubricant": {"oil": "ISO VG 32", "temperature": "45 K"}},
+            r"lubricant\.temperature: got -228\.1 °C; it",
+        ),
+        ({"lubricant": {"oil": "SAE 30", "temperature": "9000 K"}}, r"lubricant\.temperature: got 8727 °C; it must be"),
+        ({"lubricant": {"oil": "ISO VG 32", "temperature": "113 degF"}}, r"got '113 degF', whose unit is not known"),
+    ],
+)
+def test_heat_without_effect_or_sense_is_refused_in_one_line(changes, words):
+    with pytest.raises(InputError, match=words) as refused:
+        rf.read_scene(PAD | changes)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("model", "heat", "left"),
+    [
+        ("heat_balance", {"fixed_wall": {"kind": "temperature", "temperature": "40 degC"}}, "heat.fixed_wall"),
+        ("adiabatic", {"sliding_wall": "turning"}, "heat.sliding_wall"),
+        ("adiabatic", {"heat_transfer": "20 W/(m^2*K)", "area": "1 m^2"}, "heat.heat_transfer"),
+        ("across", {"heat_transfer": "20 W/(m^2*K)", "area": "1 m^2"}, "heat.heat_transfer"),
+        ("across", {"sliding_wall": "turning"}, None),
+    ],
+)
+def test_a_model_says_which_heat_it_leaves_out(model, heat, left):
+    fits = next(one for one in rf.models("bearing") if one.name == model).applies(rf.read_scene(PAD | {"heat": heat}))
+    assert fits.applies
+    assert (f"leaves out {left}" in fits.reason) if left else ("heat." not in fits.reason)
