@@ -113,16 +113,18 @@ class HeatBalance:
 
 @dataclass(frozen=True, kw_only=True)
 class Iterate:
-    """What an iteration leaves for the next one: factors of faces, the count of renewals, and a response.
+    """What an iteration leaves for the next one: properties, factors of faces, the count of renewals, and a response.
 
     Attributes
     ----------
+    near : properties of the liquid at the temperatures; None if they are to be evaluated again.
     reach : limited factors of the faces in x and in y.
     renewals : number of renewals of viscosities from the first start on.
     response : change of the heat by the temperature of a turning wall, J/(m³ K); None for other walls.
     slope : change of the heat flow into a turning wall by its temperature, W/K.
     """
 
+    near: Linearised | None
     reach: tuple[Array, Array]
     renewals: int
     response: Array | None
@@ -146,6 +148,7 @@ class TemperatureAcross:
     balance : heat flows of the film.
     residual : sum of the sizes of all residuals over the power and the sizes of the heat flows in.
     change : mean change of T over its range in the first sweep after viscosities were renewed last.
+    settled : whether residual and change meet their tolerances, which ``renewals`` may prevent.
     sweeps : number of sweeps over the film.
     shaft : temperature of a turning wall, K; None for other walls.
     iterate : what a further iteration starts from.
@@ -164,6 +167,7 @@ class TemperatureAcross:
     balance: HeatBalance
     residual: float
     change: float
+    settled: bool
     sweeps: int
     shaft: float | None
     iterate: Iterate
@@ -266,7 +270,8 @@ def _solved(
     """Renew viscosities and equations, and sweep, until the temperature no longer changes."""
     supply = film.liquid.temperature
     heat = np.array(np.broadcast_to(film.liquid.heat(temperature)[0], temperature.shape))
-    near = linearised(film.liquid, heat, temperature)
+    known_near = None if before is None else before.near
+    near = linearised(film.liquid, heat, temperature) if known_near is None else known_near
     response = np.zeros(temperature.shape) if film.turning else None
     done, reach, slope = 0, None, 0.0
     if before is not None and before.reach[0].shape == temperature.shape:
@@ -293,7 +298,8 @@ def _solved(
             least, fall = max(RESIDUAL_TOLERANCE, rounded), LAST_FALL
             if residual <= least or renewed == limit:
                 break
-    if most is None and (residual > least or change > tolerance):
+    settled = residual <= least and change <= tolerance
+    if most is None and not settled:
         raise ConvergenceError(
             f"temperature across the film: after {sweeps} sweeps it changes by {change:.1e} of its range, with a "
             f"residual of {residual:.1e}, above the tolerances {tolerance:.1e} and {least:.1e}; take more "
@@ -301,8 +307,8 @@ def _solved(
             outcome=Outcome.UNFINISHED,
             iterations=sweeps,
         )
-    following = Iterate(reach=system.reach, renewals=done, response=response, slope=slope)
-    return _result(film, system, heat, near, checked, residual, change, sweeps, following)
+    following = Iterate(near=near, reach=system.reach, renewals=done, response=response, slope=slope)
+    return _result(film, system, heat, near, checked, residual, change, settled, sweeps, following)
 
 
 def _check_range(liquid: Liquid, heat: Array, sweeps: int) -> None:
@@ -387,6 +393,7 @@ def _result(
     checked: Audit,
     residual: float,
     change: float,
+    settled: bool,
     sweeps: int,
     iterate: Iterate,
 ) -> TemperatureAcross:
@@ -419,6 +426,7 @@ def _result(
         balance=balance,
         residual=residual,
         change=change,
+        settled=settled,
         sweeps=sweeps,
         shaft=film.liquid.temperature + float(film.walls[0].outside[0, 0]) if film.turning else None,
         iterate=iterate,

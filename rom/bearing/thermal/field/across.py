@@ -42,6 +42,9 @@ from roughfilm.rom.temperature.walls import (
 TOLERANCE = 1e-5
 """Mean change of the temperature over its range at which its iteration stops, as that of film and temperature."""
 
+RENEWALS = 1
+"""Number of renewals of the viscosities across each film of a fine grid, since the film changes anyway."""
+
 
 @dataclass(frozen=True)
 class BetweenWalls:
@@ -68,7 +71,9 @@ class BetweenWalls:
         new = new_lubricant(scene, solution, liquid.temperature)
         back, rubs = returning(scene, solution, new), rubbing(scene, solution, near)
         sliding, fixed = walls_of(scene, liquid.temperature)
-        sheared, start = sheared_liquid(scene, solution), _start(near, solution)
+        thins = scene.lubricant.shear_thinning is not None
+        sheared, start = sheared_liquid(scene, solution), _start(near, solution, thins=thins)
+        fine = near is not None and solution.state.pressure.size > COARSE_NODES
         same = start is not None and near is not None and near.temperature.shape == solution.grid.shape
         at_end = power_of_end(solution, start.viscosities.shear) if start is not None and same else None
         added = [one for one in (at_end, None if rubs is None else rubs.power) if one is not None]
@@ -83,6 +88,7 @@ class BetweenWalls:
                 added_power=sum(added[1:], added[0]) if added else None,
                 start=start if known is None else known,
                 tolerance=TOLERANCE,
+                renewals=RENEWALS if fine else None,
             )
 
         if back is None:
@@ -92,7 +98,7 @@ class BetweenWalls:
                 temperatures,
                 lambda one: back.mixture(liquid, one.carried),
                 back.first if near is None or near.inlet is None else near.inlet,
-                once=near is not None and solution.state.pressure.size > COARSE_NODES,
+                roughly=fine,
             )
         balance, leaving = found.balance, float(np.maximum(-node_balances(solution), 0.0).sum())
         spilled = balance.stored - float((stored_flow(solution) * liquid.heat(found.mean)[0]).sum())
@@ -119,7 +125,7 @@ class BetweenWalls:
                 "fixed_wall_temperature": found.fixed_wall.temperature,
             },
             start=found,
-            settled=mixture is None or abs(mixture.error) <= MIXED,
+            settled=found.settled and (mixture is None or abs(mixture.error) <= MIXED),
         )
 
 
@@ -143,19 +149,22 @@ def sheared_liquid(scene: Bearing, solution: Solution) -> Liquid:
     return replace(liquid, viscosity=viscosity)
 
 
-def _start(near: HeatedFilm | None, solution: Solution) -> TemperatureAcross | None:
-    """The temperatures across a film at the nodes of another one; None without a film."""
+def _start(near: HeatedFilm | None, solution: Solution, *, thins: bool) -> TemperatureAcross | None:
+    """The temperatures across a film at the nodes of another one; None without a film.
+
+    The viscosities of a lubricant that ``thins`` with shear change with the film.
+    """
     if near is None:
         return None
     known = near.start
     assert isinstance(known, TemperatureAcross)
     if known.temperature.shape[:2] == solution.grid.shape:
-        return known
+        return replace(known, iterate=replace(known.iterate, near=None)) if thins else known
     x, y = np.meshgrid(solution.grid.x, solution.grid.y, indexing="ij")
     layers = np.moveaxis(known.temperature, -1, 0)
     moved = between_nodes(layers, near.grid, solution.problem.shape.joined, x.ravel(), y.ravel())
     temperature = np.ascontiguousarray(moved.reshape(-1, *x.shape).transpose(1, 2, 0))
-    fresh = replace(known.iterate, renewals=0, response=None)
+    fresh = replace(known.iterate, near=None, renewals=0, response=None)
     return replace(known, temperature=temperature, iterate=fresh)
 
 

@@ -10,7 +10,6 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm, hottest, start_of
 from roughfilm.rom.bearing.thermal.field.mixing import (
-    COARSE_NODES,
     MIXED,
     at_mixture,
     is_seen_from_inside,
@@ -82,7 +81,7 @@ class AdiabaticWalls:
                 temperatures,
                 lambda one: back.mixture(liquid, one.temperature),
                 back.first if near is None or near.inlet is None else near.inlet,
-                once=before is not None and solution.state.pressure.size > COARSE_NODES,
+                roughly=False,
             )
         viscosities, stress = with_thinning(scene, solution, found, near)
         viscosities = seen_from_inside(viscosities, solution)

@@ -162,7 +162,7 @@ def coupled(
         if small:
             heated = heating(film.solution, heated)
             continue
-        step = memory.following(used, following, areas) - used if heated.settled else rest
+        step = memory.following(used, following, areas) - used
         film, heated = _stepped(film, heated, again, heating, (used, step), hottest)
     raise ConvergenceError(
         f"temperature: the viscosity of the film and that at its temperatures differ by {changes[-1]:.1e} after "

@@ -28,7 +28,16 @@ MIXED = 1e-4
 """Error of the temperature of a mixture, K, at which its iteration stops."""
 
 COARSE_NODES = 2000
-"""Largest number of nodes of a grid on which the mixture of each film is iterated to the end, as that of the first."""
+"""Largest number of nodes of a grid on which temperatures and mixture of each film are iterated to the end.
+
+On finer grids those of the first film without another one near it are.
+"""
+
+ROUGHLY_MIXED, FALL_OF_ERROR = 0.01, 0.1
+"""Error of the mixture of a film on a fine grid, K, and this error over the first one, at which its iteration stops.
+
+The mixture is that of a film that changes further; that of the last one is iterated to ``MIXED``.
+"""
 
 LEAST_STEP = 0.01
 """Smallest step of the temperature at the inlet, K, from which the slope of the mixture is taken."""
@@ -212,20 +221,20 @@ def at_mixture(
     image: Callable[[HeatedT], float],
     first: Mixture,
     *,
-    once: bool,
+    roughly: bool,
 ) -> tuple[HeatedT, Mixture]:
     """The temperatures of a film whose inlet has about the temperature of the mixture that they bring about.
 
     The heat that leaves grows by less than the heat that enters, since warmer lubricant is thinner, so that the mixture
     contracts by at most its share of hot lubricant and what stays in the film; the iteration extrapolates this slope.
-    On a fine grid one step is enough, with the slope of a coarse one: the film changes with the mixture anyway.
+    On a fine grid few steps are enough, with the slope of a coarse one: the film changes with the mixture anyway.
 
     Parameters
     ----------
     solve : solve(temperature, near), the temperatures of the film, K, for a temperature at the inlet.
     image : image(temperatures), the temperature of their mixture, K.
     first : mixture from which the iteration starts.
-    once : whether one step is enough.
+    roughly : whether an error of ``ROUGHLY_MIXED``, or a part of the first one, is small enough; the slope stays.
 
     Returns
     -------
@@ -237,14 +246,16 @@ def at_mixture(
     ConvergenceError
         If the mixture does not converge.
     """
-    inlet, slope, before, near = first.following, first.slope, None, None
+    inlet, slope, before, near, least = first.following, first.slope, None, None, MIXED
     for _ in range(MAX_MIXTURES):
         near = solve(inlet, near)
         rest = image(near) - inlet
-        if before is not None and abs(inlet - before[0]) >= LEAST_STEP:
+        if roughly and before is None:
+            least = max(ROUGHLY_MIXED, FALL_OF_ERROR * abs(rest))
+        elif not roughly and before is not None and abs(inlet - before[0]) >= LEAST_STEP:
             slope = min(max(1 + (rest - before[1]) / (inlet - before[0]), 0.0), STEEPEST)
         mixture = Mixture(temperature=inlet, error=rest, slope=slope)
-        if abs(rest) <= MIXED or once:
+        if abs(rest) <= least:
             return near, mixture
         if inlet > HOTTEST:
             break
