@@ -414,6 +414,38 @@ def test_a_multigrade_oil_loses_more_friction_than_film() -> None:
     assert film["of the mean shear rate"][1:4] == pytest.approx(on_curve, rel=0.01)
 
 
+def test_a_field_of_temperature_leaves_less_load_than_one_temperature() -> None:
+    values = values_of("bearings/one_temperature")
+    loads, found = values["loads"], values["found"]
+    assert loads["reynolds_cavitating"] == pytest.approx(loads["reynolds_cavitating"][0] * values["turns"] / 100)
+    shares = {model: one / loads["reynolds_cavitating"] for model, one in loads.items()}
+    assert shares["heat_balance"][-1] == pytest.approx(1 - 0.39, abs=0.006)
+    assert shares["adiabatic"][-1] == pytest.approx(1 - 0.54, abs=0.006)
+    assert shares["across"] == pytest.approx(shares["adiabatic"], rel=0.03)
+    assert (shares["adiabatic"] < shares["heat_balance"]).all()
+    # A film of one viscosity carries in proportion to it, and ASTM D341 gives that of the oil.
+    temperature = np.array([one["effective_temperature"].value for one in found["heat_balance"]])
+    assert shares["heat_balance"] == pytest.approx(_vg_32(temperature) / _vg_32(45.0), rel=5e-3)
+
+
+def _vg_32(temperature: Any) -> Any:
+    """The viscosity of ISO VG 32 at °C, over a density: Walther through 32 and 5.3 mm²/s (data sheets)."""
+    log = np.log10(np.log10(np.array([32.0, 5.3]) + 0.7))
+    slope = (log[1] - log[0]) / np.log10(373.15 / 313.15)
+    kinematic = 10**10 ** (log[0] + slope * np.log10((np.asarray(temperature) + 273.15) / 313.15)) - 0.7
+    return kinematic * np.exp(-0.6278 / 852 * (np.asarray(temperature) - 45))
+
+
+def test_a_shaft_and_a_shell_cool_a_journal() -> None:
+    hot, cool = values_of("bearings/temperature_map")["results"].values()
+    assert hot["temperature_max"].value - cool["temperature_max"].value == pytest.approx(24.4, abs=0.5)
+    for result in (hot, cool):
+        left = sum(result[f"heat_to_{place}"].value for place in ("lubricant", "fixed_wall", "sliding_wall"))
+        assert left == pytest.approx(result["heat_generated"].value, rel=1e-7)
+    assert cool["heat_to_sliding_wall"].value == pytest.approx(0, abs=1e-6 * cool["heat_generated"].value)
+    assert hot.fields["temperature"].values.max() == pytest.approx(hot["temperature_max"].value, abs=1.0)
+
+
 # Mixed lubrication
 
 

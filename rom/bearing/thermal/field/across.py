@@ -23,7 +23,7 @@ from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
 from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.bearing.thermal.tables import Adiabatic, Conducting, GivenTemperature, HalfSpace, Heat, Turning
-from roughfilm.rom.cavitation.evaluation.flows import node_balances
+from roughfilm.rom.cavitation.evaluation.flows import node_balances, stored_flow
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.shear_thinning.film import thinned_profiles
@@ -95,6 +95,7 @@ class BetweenWalls:
                 once=near is not None and solution.state.pressure.size > COARSE_NODES,
             )
         balance, leaving = found.balance, float(np.maximum(-node_balances(solution), 0.0).sum())
+        spilled = balance.stored - float((stored_flow(solution) * liquid.heat(found.mean)[0]).sum())
         heat = scene.heat or Heat()
         turning = heat.sliding_wall
         given = turning.temperature if isinstance(turning, Turning) else None
@@ -105,7 +106,7 @@ class BetweenWalls:
             highest=found.largest,
             place=found.place[:2],
             inlet=mixture,
-            outlet=temperature_of(liquid, balance.leaving / leaving) if leaving > 0 else None,
+            outlet=temperature_of(liquid, (balance.leaving + spilled) / leaving) if leaving > 0 else None,
             generated=balance.dissipation,
             to_lubricant=balance.leaving - balance.entering + balance.stored,
             to_fixed_wall=balance.fixed_wall,

@@ -24,6 +24,7 @@ from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.shear_thinning.film import thinned
+from roughfilm.rom.temperature.dissipation import dissipation, film_flows
 from roughfilm.rom.temperature.mean import MeanTemperature, mean_temperature
 
 FREE_FILMS = 3
@@ -59,6 +60,7 @@ class AdiabaticWalls:
         before = near if near is not None and near.temperature.shape == solution.grid.shape else None
         slopes = before.slopes if before is not None and before.films >= FREE_FILMS else None
         rubs, at_rest = rubbing(scene, solution, near), viscosity_at_rest(scene, solution, near)
+        at_rest, at_end = kept_at_end(solution, at_rest)
 
         def temperatures(inlet: float | None, known: MeanTemperature | None) -> MeanTemperature:
             return mean_temperature(
@@ -67,7 +69,7 @@ class AdiabaticWalls:
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
                 exchange=cooled,
                 wall=new,
-                added_power=0.0 if rubs is None else rubs.power,
+                added_power=at_end if rubs is None else at_end + rubs.power,
                 at_rest=at_rest,
                 start=start_of(near, solution) if known is None else known.temperature,
                 slopes=slopes,
@@ -112,19 +114,26 @@ def _taken(found: MeanTemperature) -> float:
 
 
 def viscosity_at_rest(scene: Bearing, solution: Solution, near: HeatedFilm | None) -> Array | None:
-    """The viscosity at rest at the temperatures of ``near``, where a film was solved with another one.
+    """The viscosity at rest at the temperatures of ``near``, with which a film that thins with shear was solved.
 
-    None of a film with the viscosity of the scene, and of one whose viscosities are those of its temperatures: the
-    lubricant does not thin with shear, and the end does not have the viscosity before it.
+    None of a lubricant that does not thin, and of a film with the viscosity of the scene.
     """
-    liquid, own = scene.lubricant.liquid, solution.problem.at_nodes
-    if own is None:
+    liquid = scene.lubricant.liquid
+    if scene.lubricant.shear_thinning is None or solution.problem.at_nodes is None:
         return None
     known = start_of(near, solution)
-    warm = liquid.viscosity(np.full(solution.grid.shape, liquid.temperature) if known is None else known)[0]
-    if scene.lubricant.shear_thinning is not None:
-        return warm
-    return np.concatenate([own.shear[:-1], warm[-1:]]) if is_seen_from_inside(solution) else None
+    return liquid.viscosity(np.full(solution.grid.shape, liquid.temperature) if known is None else known)[0]
+
+
+def kept_at_end(solution: Solution, at_rest: Array | None) -> tuple[Array | None, Array | float]:
+    """The viscosity at rest, and the power of an end with the viscosity before it, W, which does not change with T."""
+    own = solution.problem.at_nodes
+    if own is None or not is_seen_from_inside(solution):
+        return at_rest, 0.0
+    known, power = np.array(own.shear if at_rest is None else at_rest), np.zeros(solution.grid.shape)
+    known[-1] = np.inf
+    power[-1] = np.maximum(dissipation(solution, film_flows(solution))[-1], 0.0)
+    return known, power
 
 
 def with_thinning(
