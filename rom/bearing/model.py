@@ -20,6 +20,18 @@ RESOLUTION_MEANING = "cells along the sliding direction, and as many across if t
 RESIDUAL_MEANING = "largest net flow into a node over the largest flow through a face"
 SOURCES = ("10.1115/1.3251669", "10.1016/j.triboint.2007.02.021")
 
+ISOTHERMAL_EFFECTS = frozenset(
+    {
+        Effect.SIDE_FLOW,
+        Effect.CAVITATION,
+        Effect.PRESSURE_DEPENDENCE,
+        Effect.ROUGHNESS,
+        Effect.DEFORMATION,
+        Effect.PLASTICITY,
+    }
+)
+"""Effects of the isothermal film that a scene needs: smooth walls, averaged roughness, or asperities that touch."""
+
 LINE_CELLS = (64, 256, 1024, 4096)
 """Numbers of cells from coarse to fine along an infinitely wide film."""
 

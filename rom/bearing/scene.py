@@ -213,7 +213,6 @@ class Bearing(Scene):
     @model_validator(mode="after")
     def _can_be_solved(self) -> Self:
         lowest = self.lubricant.cavitation_pressure
-        self._can_have_temperatures()
         if self.boundary.inlet.ram_factor and self.lubricant.density is None:
             raise ValueError(
                 f"boundary.inlet.ram_factor: got {self.boundary.inlet.ram_factor:g} without lubricant.density, by "
@@ -314,23 +313,6 @@ class Bearing(Scene):
                 f"motion.speed: got 0 m/s under a load; a film without sliding{parts} carries none by its thickness, "
                 "give a speed, an approach above 0 m/s, [[supply]] behind restrictors, or [asperities] that touch"
             )
-
-    def _can_have_temperatures(self) -> None:
-        """Raise ValueError for temperatures of entering lubricant without a law of its viscosity over temperature."""
-        given = {f"supply.{number}": one.temperature for number, one in enumerate(self.supply)}
-        given["boundary.inlet"] = self.boundary.inlet.temperature
-        for place, temperature in given.items():
-            if temperature is None:
-                continue
-            if self.lubricant.thermoviscosity is None:
-                raise ValueError(
-                    f"{place}.temperature: got one without lubricant.thermoviscosity; add the law of the viscosity, or "
-                    "leave it out"
-                )
-            try:
-                self.lubricant.at(temperature)
-            except InputError as error:
-                raise ValueError(f"{place}.temperature: {error}") from None
 
     def _can_be_supplied(self) -> None:
         """Raise ValueError if a supply lies outside of the film, or its pressure is below that of cavitation."""

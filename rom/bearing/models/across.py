@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from roughfilm.contact.foundation.deferred import deferred
-from roughfilm.rom.bearing.model import SOURCES, bearing_model
+from roughfilm.rom.bearing.model import ISOTHERMAL_EFFECTS, SOURCES, bearing_model
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.applies import across_applies
 from roughfilm.rom.ladder.model import Effect
@@ -14,20 +14,8 @@ FILMS = 10.0
 _MODEL = bearing_model(
     name="across",
     summary="adds the temperature across the film, and walls that take heat",
-    keeps=frozenset(
-        {
-            Effect.SIDE_FLOW,
-            Effect.CAVITATION,
-            Effect.PRESSURE_DEPENDENCE,
-            Effect.ROUGHNESS,
-            Effect.DEFORMATION,
-            Effect.PLASTICITY,
-            Effect.SHEAR_THINNING,
-            Effect.HEATING,
-            Effect.TEMPERATURE_FIELD,
-            Effect.TEMPERATURE_ACROSS,
-        }
-    ),
+    keeps=ISOTHERMAL_EFFECTS
+    | {Effect.SHEAR_THINNING, Effect.HEATING, Effect.TEMPERATURE_FIELD, Effect.TEMPERATURE_ACROSS},
     sources=(*SOURCES, "10.1016/S0020-7403(62)80038-1"),
     applies=across_applies,
     in_plane=4e-6,

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from roughfilm.contact.foundation.deferred import deferred
-from roughfilm.rom.bearing.model import SOURCES, bearing_model
+from roughfilm.rom.bearing.model import ISOTHERMAL_EFFECTS, SOURCES, bearing_model
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.applies import adiabatic_applies
 from roughfilm.rom.ladder.model import Effect
@@ -14,19 +14,7 @@ FILMS, COARSE_S = 2.0, 0.01
 _MODEL = bearing_model(
     name="adiabatic",
     summary="adds the temperature over the film, walls take no heat",
-    keeps=frozenset(
-        {
-            Effect.SIDE_FLOW,
-            Effect.CAVITATION,
-            Effect.PRESSURE_DEPENDENCE,
-            Effect.ROUGHNESS,
-            Effect.DEFORMATION,
-            Effect.PLASTICITY,
-            Effect.SHEAR_THINNING,
-            Effect.HEATING,
-            Effect.TEMPERATURE_FIELD,
-        }
-    ),
+    keeps=ISOTHERMAL_EFFECTS | {Effect.SHEAR_THINNING, Effect.HEATING, Effect.TEMPERATURE_FIELD},
     sources=(*SOURCES, "10.1016/S0020-7403(62)80038-1"),
     applies=adiabatic_applies,
     in_plane=4e-6,

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from roughfilm.contact.foundation.deferred import deferred
-from roughfilm.rom.bearing.model import SOURCES, bearing_model
+from roughfilm.rom.bearing.model import ISOTHERMAL_EFFECTS, SOURCES, bearing_model
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.applies import heat_balance_applies
 from roughfilm.rom.ladder.model import Effect
@@ -14,18 +14,7 @@ FILMS, SEARCH_S = 2.0, 0.04
 _MODEL = bearing_model(
     name="heat_balance",
     summary="adds heating: one temperature of the film by its heat balance",
-    keeps=frozenset(
-        {
-            Effect.SIDE_FLOW,
-            Effect.CAVITATION,
-            Effect.PRESSURE_DEPENDENCE,
-            Effect.ROUGHNESS,
-            Effect.DEFORMATION,
-            Effect.PLASTICITY,
-            Effect.SHEAR_THINNING,
-            Effect.HEATING,
-        }
-    ),
+    keeps=ISOTHERMAL_EFFECTS | {Effect.SHEAR_THINNING, Effect.HEATING},
     sources=(*SOURCES, "DIN 31652-1", "ISO 7902-1"),
     applies=heat_balance_applies,
     in_plane=4e-6,

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from roughfilm.contact.foundation.deferred import deferred
 from roughfilm.rom.bearing.film import averaging_applies
-from roughfilm.rom.bearing.model import SOURCES, bearing_model
+from roughfilm.rom.bearing.model import ISOTHERMAL_EFFECTS, SOURCES, bearing_model
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Applicability, Effect
 
@@ -26,17 +26,7 @@ def applies(scene: Bearing) -> Applicability:
 _MODEL = bearing_model(
     name="shear_thinning",
     summary="adds shear thinning: viscosity that falls with the shear rate",
-    keeps=frozenset(
-        {
-            Effect.SIDE_FLOW,
-            Effect.CAVITATION,
-            Effect.PRESSURE_DEPENDENCE,
-            Effect.ROUGHNESS,
-            Effect.DEFORMATION,
-            Effect.PLASTICITY,
-            Effect.SHEAR_THINNING,
-        }
-    ),
+    keeps=ISOTHERMAL_EFFECTS | {Effect.SHEAR_THINNING},
     sources=(*SOURCES, "10.1016/S0020-7403(62)80038-1"),
     applies=applies,
     in_plane=4e-6,

@@ -86,7 +86,7 @@ def test_lubricant_at_rest_in_a_recess_has_the_temperature_of_its_supply():
     result = solved(scene(pad, **still), 48)
     temperature = result.fields["temperature"].values
     assert temperature.min() == pytest.approx(35, abs=1e-3)
-    assert temperature[24, 24] == pytest.approx(35, abs=1e-6)
+    assert temperature[24, 24] == pytest.approx(35, abs=1e-3)
     density, capacity = (float(LUBRICANT[name].split()[0]) for name in ("density", "heat_capacity"))
     assert value(result, "outlet_temperature") == pytest.approx(35 + 3e6 / (density * capacity), abs=1e-3)
 
