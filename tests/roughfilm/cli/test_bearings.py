@@ -19,6 +19,9 @@ SLIDER = SCENES / "parabolic_slider.toml"
 WITH_INERTIA_OR_SLOPE = ("film", "film_slope", "stokes", "navier_stokes")
 """The models of infinitely wide pads with a density and without pressure dependence."""
 
+OF_OILS = ("heat_balance", "adiabatic", "across", "shear_thinning")
+"""The models of lubricants with a temperature, and of those that thin with shear."""
+
 
 def run(*arguments):
     return CliRunner().invoke(app, [str(argument) for argument in arguments])
@@ -101,7 +104,14 @@ def test_compare_on_a_line(tmp_path):
         ("reynolds", "reynolds_incompressible", "cavitation"),
         ("reynolds_incompressible", "reynolds_cavitating", "pressure dependence"),
     }
-    assert set(message["absent"]) == {"infinitely_wide", "homogenized", "direct", "mixed", *WITH_INERTIA_OR_SLOPE}
+    assert set(message["absent"]) == {
+        "infinitely_wide",
+        "homogenized",
+        "direct",
+        "mixed",
+        *WITH_INERTIA_OR_SLOPE,
+        *OF_OILS,
+    }
     page = page_of(tmp_path / "study" / "report.html")
     assert page.outside == []
     assert page.tags.count("svg") == 3
@@ -119,7 +129,7 @@ def test_compare_in_the_plane(tmp_path):
     result = run("compare", SCENES / "journal.toml", "--out", tmp_path / "study", "--json")
     assert result.exit_code == 0, result.stderr
     message = json.loads(result.stdout)
-    assert set(message["absent"]) == {"homogenized", "direct", "mixed", *WITH_INERTIA_OR_SLOPE}
+    assert set(message["absent"]) == {"homogenized", "direct", "mixed", *WITH_INERTIA_OR_SLOPE, *OF_OILS}
     assert {d["effect"] for d in message["differences"] if d["effect"]} == {
         "cavitation",
         "pressure dependence",
