@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
@@ -43,7 +44,10 @@ TOLERANCE = 1e-5
 """Mean change of the temperature over its range at which its iteration stops, as that of film and temperature."""
 
 RENEWALS = 1
-"""Number of renewals of the viscosities across each film of a fine grid, since the film changes anyway."""
+"""Number of renewals of the viscosities across each film of a fine grid, since the film changes anyway.
+
+The equilibrium of a wall that moves freely costs more than the temperatures, which are then those of each film.
+"""
 
 
 @dataclass(frozen=True)
@@ -74,6 +78,7 @@ class BetweenWalls:
         thins = scene.lubricant.shear_thinning is not None
         sheared, start = sheared_liquid(scene, solution), _start(near, solution, thins=thins)
         fine = near is not None and solution.state.pressure.size > COARSE_NODES
+        free = isinstance(scene.geometry, MovingWall)
         same = start is not None and near is not None and near.temperature.shape == solution.grid.shape
         at_end = power_of_end(solution, start.viscosities.shear) if start is not None and same else None
         added = [one for one in (at_end, None if rubs is None else rubs.power) if one is not None]
@@ -88,7 +93,7 @@ class BetweenWalls:
                 added_power=sum(added[1:], added[0]) if added else None,
                 start=start if known is None else known,
                 tolerance=TOLERANCE,
-                renewals=RENEWALS if fine else None,
+                renewals=RENEWALS if fine and not free else None,
             )
 
         if back is None:
