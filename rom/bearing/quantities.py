@@ -161,6 +161,7 @@ class Flows:
     low, high : flows out through the sides at the lowest and at the highest y; zero without open sides.
     displaced : flow -∫ θ ∂h/∂t dA that walls displace which approach each other; negative where they part.
     supplied : whether lubricant is supplied inside of the film.
+    gaps : for each gap between films, in the order of x, the flow out of the film before it and into the one behind it.
     """
 
     inlet: float | None
@@ -169,6 +170,7 @@ class Flows:
     high: float
     supplied: bool = False
     displaced: float = 0.0
+    gaps: tuple[tuple[float, float], ...] = ()
 
     @property
     def side_leakage(self) -> float:
@@ -201,12 +203,15 @@ def boundary_flows(solution: Solution) -> Flows:
     for row, inner in ((0, 1), (-1, -2)) if open_sides else ():
         filled = along[:, row] + couette[:, row] * (fill[:, inner] - fill[:, row])
         along[:, row] = 0.75 * filled + 0.25 * along[:, inner] * widths[row] / widths[inner]
+    gaps: tuple[tuple[float, float], ...] = ()
     if idle:
         within = solution.problem.shape.is_idle(grid.x + grid.spacing_x / 2)
         gap = within | np.roll(within, 1)
         begins, ends = np.flatnonzero(gap & ~np.roll(gap, -1)), np.flatnonzero(~gap & np.roll(gap, -1))
         low, high = -float(across[~gap, 0].sum()), float(across[~gap, -2].sum())
         entering = leaving = 0.0
+        before, total = ends[np.searchsorted(ends, begins) - 1], along.sum(axis=1)
+        gaps = tuple((float(total[end]), float(total[begin])) for end, begin in zip(before, begins, strict=True))
     else:
         begins, ends = np.array([0]), np.array([along.shape[0] - 2])
         through = across[[0, -1], -2] - across[[0, -1], 0]
@@ -219,6 +224,7 @@ def boundary_flows(solution: Solution) -> Flows:
         high=high + float(passed[-1]),
         supplied=supplied,
         displaced=displaced,
+        gaps=gaps,
     )
 
 

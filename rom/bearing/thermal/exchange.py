@@ -9,6 +9,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.ring import Ring
+from roughfilm.rom.bearing.quantities import boundary_flows
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.cavitation.evaluation.flows import flow_across, flow_along
@@ -151,8 +152,9 @@ def exchange_of(
     leaves, Σ p Q. Lubricant that a restrictor throttles enters with the heat that this releases. New lubricant enters
     through the inlet, open sides and supplies, each where it flows in; what walls displace that approach each other has
     come in at the supply temperature. Recirculated is, of a ring or a shaft, ``heat.carried_over`` times the
-    flow out at the end, as far as the inlet takes it; of a film without an end the least flow along anywhere, and
-    behind supplies ``heat.carried_over`` of it. Of a single pad nothing recirculates.
+    flow out at the end, as far as the inlet takes it; of films with gaps between them the same at each gap, with the
+    flow out of the film before it and that into the one behind it; of a film without an end the least flow along
+    anywhere, and behind supplies ``heat.carried_over`` of it. Of a single pad nothing recirculates.
 
     Parameters
     ----------
@@ -184,7 +186,7 @@ def exchange_of(
         for amount, supply in zip(supplied, scene.supply, strict=True)
     ]
     new.append((max(displaced, 0.0), supply_temperature))
-    carried = 0.0
+    carried, gaps = 0.0, boundary_flows(solution).gaps if solution.problem.shape.idle else ()
     if ("inlet_flow_per_width" if wide else "inlet_flow") not in quantities:
         carried = max(float(flow_along(solution).sum(axis=1).min()), 0.0)
         if scene.supply:
@@ -194,13 +196,17 @@ def exchange_of(
             new.append((drained, supply_temperature if mean is None else mean))
             carried -= drained
     else:
-        if isinstance(scene.geometry, Ring | Shaft):
-            carried = min(heat.carried_over * max(outlet, 0.0), max(inlet, 0.0))
         at_inlet = scene.boundary.inlet.temperature
-        new.append((max(inlet, 0.0) - carried, supply_temperature if at_inlet is None else at_inlet))
-        new.append((max(-outlet, 0.0), supply_temperature))
+        fresh = supply_temperature if at_inlet is None else at_inlet
+        for leaving, entering in gaps or ((outlet, inlet),):
+            again = 0.0
+            if isinstance(scene.geometry, Ring | Shaft):
+                again = min(heat.carried_over * max(leaving, 0.0), max(entering, 0.0))
+            new.append((max(entering, 0.0) - again, fresh))
+            new.append((max(-leaving, 0.0), fresh if gaps else supply_temperature))
+            carried += again
     sides, at_end = scene.boundary.sides, scene.ends.outlet + lubricant.cavitation_pressure
-    pumped = scene.inlet_pressure * inlet - (scene.inlet_pressure if _gaps(solution) else at_end) * outlet
+    pumped = scene.inlet_pressure * inlet - (scene.inlet_pressure if gaps else at_end) * outlet
     pumped -= sides.low * low + sides.high * high
     for number, (amount, supply) in enumerate(zip(supplied, scene.supply, strict=True), start=1):
         pressure = quantities[f"supply_{number}_pressure"].value if supply.pressure is None else supply.pressure
@@ -213,10 +219,6 @@ def exchange_of(
         conductance=conductance,
         surroundings=supply_temperature if heat.surroundings is None else heat.surroundings,
     )
-
-
-def _gaps(solution: Solution) -> bool:
-    return bool(solution.problem.shape.idle)
 
 
 def _drawn_through_sides(solution: Solution) -> tuple[float, float]:
