@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.rom.cavitation.evaluation.flows import balances, flow_across, flow_along, stored_flow
+from roughfilm.rom.cavitation.evaluation.flows import balances, flow_across, flow_along, node_storage
 from roughfilm.rom.cavitation.evaluation.friction import pull_across, pull_along, radius_between
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
@@ -39,7 +39,7 @@ def film_flows(solution: Solution) -> Flows:
     """The flows of a film."""
     along, across = flow_along(solution), flow_across(solution)
     entering = balances(solution, along, across)
-    return Flows(along=along, across=across, entering=entering, stored=stored_flow(solution))
+    return Flows(along=along, across=across, entering=entering, stored=node_storage(solution))
 
 
 def flowing(solution: Solution) -> NDArray[np.bool_]:

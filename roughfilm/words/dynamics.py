@@ -3,6 +3,7 @@
 import math
 
 from roughfilm.contact.foundation.rounding import with_error
+from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint
 from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve
 from roughfilm.rom.bearing.scene import Bearing
@@ -73,6 +74,19 @@ def answer_of(scene: Bearing, curve: DynamicCurve) -> str:
     else:
         words = f"a rigid rotor is stable up to {mass} kg in the bearing, whirl ratio {whirl_ratio(point)}, {at}"
     return "; ".join(filter(None, [words, onset(scene, curve)]))
+
+
+def heat_warnings(scene: Bearing) -> list[str]:
+    """A warning that heating is left out, if the lubricant of a scene has a temperature."""
+    liquid = scene.lubricant
+    if liquid.thermoviscosity is None or liquid.temperature is None:
+        return []
+    supplied = f"{liquid.temperature - ZERO_CELSIUS:.4g} degC"
+    return [
+        f"lubricant.temperature: the film has the temperature of the supplied lubricant, {supplied}; stiffness and "
+        "damping leave heating out; give the effective temperature of the film, which roughfilm solve --model "
+        "heat_balance computes, as lubricant.temperature"
+    ]
 
 
 def warnings_of(scene: Bearing, curve: DynamicCurve) -> list[str]:

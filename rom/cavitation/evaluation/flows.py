@@ -35,7 +35,7 @@ def flow_across(solution: Solution) -> Array:
     return np.asarray(flow if net.oblique is None else flow + _oblique_flows(solution)[1])
 
 
-def stored_flow(solution: Solution) -> Array:
+def node_storage(solution: Solution) -> Array:
     """The flow that the nodes store where the walls move, m³/s at cavitation density, shape (nx, ny)."""
     net, excess = solution.network, solution.problem.compression(solution.state.pressure)[0]
     return np.asarray(net.storage * (solution.state.fill + excess) - net.stored)
@@ -54,4 +54,4 @@ def balances(solution: Solution, along: Array, across: Array) -> Array:
     if not net.periodic[1]:
         across[:, -1] = 0.0
     outflow = along - np.roll(along, 1, axis=0) + across - np.roll(across, 1, axis=1)
-    return np.asarray(outflow + stored_flow(solution))
+    return np.asarray(outflow + node_storage(solution))

@@ -39,7 +39,15 @@ from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.ranges import loads_of, speeds_of
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.terminal.scenes import bearing_of
-from roughfilm.words.dynamics import answer_of, critical_mass, number_of, own_point, warnings_of, whirl_ratio
+from roughfilm.words.dynamics import (
+    answer_of,
+    critical_mass,
+    heat_warnings,
+    number_of,
+    own_point,
+    warnings_of,
+    whirl_ratio,
+)
 from roughfilm.words.numbers import digits, finite
 from roughfilm.words.stribeck import speed_scale
 
@@ -219,7 +227,7 @@ def curve_entries(scene: Bearing, curves: Sequence[DynamicCurve]) -> dict[str, A
         "numerics": {"residual": max(point.residual for point in points), "points": len(points)},
         "provenance": origin(
             SOURCES,
-            [warning for curve in curves for warning in warnings_of(scene, curve)],
+            [*heat_warnings(scene), *(warning for curve in curves for warning in warnings_of(scene, curve))],
             scene=scene_entries(scene),
         ),
     }

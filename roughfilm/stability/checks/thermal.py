@@ -10,10 +10,9 @@ from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.tables import Conducting, GivenTemperature, HalfSpace, Turning
-from roughfilm.rom.cavitation.evaluation.flows import node_balances
+from roughfilm.rom.cavitation.evaluation.flows import node_balances, node_storage
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.result import Result
-from roughfilm.rom.temperature.across import TemperatureAcross
 
 BALANCE = 1e-8
 """Allowed error of the heat balance of a film over its heat flows, unless the result states a larger one."""
@@ -49,8 +48,7 @@ def heat_errors(scene: Bearing, result: Result, solution: Solution, heated: Heat
     """The errors of the heat of a film whose temperatures vary, from its flows and the heat e(T) = ∫ ρ c dT of each.
 
     Lubricant enters with the temperature of the supply or that of the mixture at the inlet. It leaves with that of its
-    node, or, where the temperature varies across the film, with the mean by its flow, ``outlet``, and with that of what
-    spills at a full inlet.
+    node, or, where the temperature varies across the film, with the mean by its flow, ``outlet``.
     """
     liquid, net, zero = scene.lubricant.liquid, node_balances(solution), 0.0
     entering, leaving = np.maximum(net, zero), np.maximum(-net, zero)
@@ -63,8 +61,7 @@ def heat_errors(scene: Bearing, result: Result, solution: Solution, heated: Heat
     else:
         outlet = liquid.temperature if heated.outlet is None else heated.outlet
         carried_out = float(leaving.sum() * liquid.heat(np.array([outlet]))[0][0])
-        if isinstance(heated.start, TemperatureAcross):
-            carried_out += heated.start.balance.stored
+        carried_out += float((node_storage(solution) * liquid.heat(heated.temperature)[0]).sum())
     walls = (heated.to_fixed_wall or 0.0, heated.to_sliding_wall or 0.0)
     work = result["power_loss_per_width" if solution.problem.shape.wide else "power_loss"].value
     work += float((solution.state.pressure * net).sum())

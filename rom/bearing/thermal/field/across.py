@@ -24,7 +24,7 @@ from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
 from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.bearing.thermal.tables import Adiabatic, Conducting, GivenTemperature, HalfSpace, Heat, Turning
-from roughfilm.rom.cavitation.evaluation.flows import node_balances, stored_flow
+from roughfilm.rom.cavitation.evaluation.flows import node_balances, node_storage
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.shear_thinning.film import thinned_profiles
@@ -106,7 +106,7 @@ class BetweenWalls:
                 roughly=fine,
             )
         balance, leaving = found.balance, float(np.maximum(-node_balances(solution), 0.0).sum())
-        spilled = balance.stored - float((stored_flow(solution) * liquid.heat(found.mean)[0]).sum())
+        spilled = balance.stored - float((node_storage(solution) * liquid.heat(found.mean)[0]).sum())
         heat = scene.heat or Heat()
         turning = heat.sliding_wall
         given = turning.temperature if isinstance(turning, Turning) else None

@@ -94,6 +94,16 @@ def test_bad_input_is_refused_in_one_line(words, message, tmp_path):
     assert "Traceback" not in done.stderr
 
 
+def test_heating_is_left_out_with_a_warning(tmp_path):
+    text = SCENE.read_text(encoding="utf-8")
+    begin, end = text.index("[lubricant]"), text.index("[", text.index("[lubricant]") + 1)
+    warm = tmp_path / "warm.toml"
+    warm.write_text(f'{text[:begin]}[lubricant]\noil = "ISO VG 32"\ntemperature = "45 degC"\n{text[end:]}')
+    done = run("--speeds", "3000rpm", "--loads", "5kN", "--out", tmp_path / "out", scene=warm)
+    assert done.exit_code == 0, done.stderr
+    assert "leave heating out" in " ".join((done.stdout + done.stderr).split())
+
+
 def test_a_shape_whose_wall_is_given_is_refused(tmp_path):
     done = run("--out", tmp_path / "out", scene=SCENES / "journal.toml")
     assert done.exit_code == 2
