@@ -1,7 +1,6 @@
 """The table of a scene that describes contact between the walls of a bearing."""
 
 from functools import cached_property
-from itertools import pairwise
 from typing import Annotated, Any, Self, overload
 
 import numpy as np
@@ -10,7 +9,7 @@ from pydantic import BeforeValidator, Field, PlainSerializer, model_validator
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import Part, plain_number
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.rom.lubricants.thermal.law import Temperature, celsius
+from roughfilm.rom.lubricants.thermal.law import Temperature, celsius, check_rising
 from roughfilm.rom.lubricants.thermal.tabulated import MIN_ROWS
 from roughfilm.rom.parts.columns_file import MAX_ROWS
 from roughfilm.rom.parts.solids import Counter, HeatConductor, RoughBody
@@ -58,12 +57,7 @@ class BoundaryFriction(Part):
     def _one_of_two(self) -> Self:
         if (self.constant is None) == (self.table is None):
             raise ValueError("give a number, such as 0.1, or a table over temperature")
-        for number, (before, after) in enumerate(pairwise(self.table or ()), 2):
-            if not after[0] > before[0]:
-                raise ValueError(
-                    f"table: got {celsius(after[0])} at row {number} after {celsius(before[0])}; the temperature must "
-                    "rise"
-                )
+        check_rising(self.table or ())
         return self
 
     @cached_property

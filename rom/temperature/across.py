@@ -201,7 +201,7 @@ def temperature_across(
     sliding_wall, fixed_wall : conditions at ζ = 0 and ζ = 1.
     entering : temperature of lubricant that enters from outside, K, a number or of shape (nx, ny); by default that of
         the liquid.
-    added_power : further power that heats the lubricant of each node, such as that of asperities which rub, W, shape
+    added_power : further power that heats the lubricant of each node, such as that of asperities in contact, W, shape
         (nx, ny); it is distributed across the film as the dissipation.
     modes : number N of Legendre modes across, from 2.
     start : a field with the same numbers of nodes and modes from which the iteration starts; its ``iterate`` is of use

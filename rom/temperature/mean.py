@@ -134,7 +134,7 @@ def mean_temperature(
     entering : temperature of the liquid that enters at a node from outside, K; by default that of the supply.
     exchange : U, coefficient of the heat transfer to both walls together, W/(m² K).
     wall : T_w, temperature of the walls, K; by default that of the supply.
-    added_power : further power that heats the liquid of each node, such as that of asperities which rub, W.
+    added_power : further power that heats the liquid of each node, such as that of asperities in contact, W.
     at_rest : viscosity at rest of the temperatures with which the film was solved, Pa s, shape (nx, ny), of a liquid
         that thins with shear: W then changes as the viscosity at rest does. By default η is that of the solution.
     start : temperature from which to start, K, shape (nx, ny).

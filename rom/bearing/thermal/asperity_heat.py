@@ -1,4 +1,4 @@
-"""The heat of asperities that rub: a part of the dissipation of a film."""
+"""The heat of asperities in contact: a part of the dissipation of a film."""
 
 import numpy as np
 

@@ -1,7 +1,9 @@
 """The base classes of the laws of the viscosity over temperature."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Annotated, ClassVar
 
 from roughfilm.contact.foundation.arrays import Array
@@ -25,6 +27,15 @@ def celsius(temperature: float) -> str:
     '40 °C'
     """
     return f"{temperature - ZERO_CELSIUS:.4g} °C"
+
+
+def check_rising(table: Sequence[tuple[float, float]]) -> None:
+    """Raise ValueError if the temperatures, K, of the rows of a table do not rise."""
+    for number, (before, after) in enumerate(pairwise(table), 2):
+        if not after[0] > before[0]:
+            raise ValueError(
+                f"table: got {celsius(after[0])} at row {number} after {celsius(before[0])}; the temperature must rise"
+            )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
-from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -12,7 +11,7 @@ from pydantic import BeforeValidator, Field, PlainSerializer, model_validator
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, Part
 from roughfilm.contact.foundation.units import SiNumber, in_si, to_si, with_unit
-from roughfilm.rom.lubricants.thermal.law import AbsoluteLaw, Temperature, celsius
+from roughfilm.rom.lubricants.thermal.law import AbsoluteLaw, Temperature, check_rising
 from roughfilm.rom.lubricants.thermal.viscosity import Point, check_points
 from roughfilm.rom.parts.columns_file import MAX_ROWS, read_rows
 
@@ -130,12 +129,7 @@ class HeatCapacity(Part):
     def _one_of_two(self) -> Self:
         if (self.constant is None) == (self.table is None):
             raise ValueError('give a number, such as "2000 J/(kg*K)", or a table over temperature')
-        for number, (before, after) in enumerate(pairwise(self.table or ()), 2):
-            if not after[0] > before[0]:
-                raise ValueError(
-                    f"table: got {celsius(after[0])} at row {number} after {celsius(before[0])}; the temperature must "
-                    "rise"
-                )
+        check_rising(self.table or ())
         return self
 
     @cached_property

@@ -9,6 +9,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import mean_gap
+from roughfilm.rom.bearing.thermal.field.asperity_friction import asperity_friction
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.field.mixing import (
     COARSE_NODES,
@@ -21,7 +22,6 @@ from roughfilm.rom.bearing.thermal.field.mixing import (
     temperature_of,
 )
 from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
-from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.bearing.thermal.tables import Adiabatic, Conducting, GivenTemperature, HalfSpace, Heat, Turning
 from roughfilm.rom.cavitation.evaluation.flows import node_balances, node_storage
@@ -73,7 +73,7 @@ class BetweenWalls:
         """
         scene, liquid = self.scene, self.scene.lubricant.liquid
         new = new_lubricant(scene, solution, liquid.temperature)
-        back, rubs = returning(scene, solution, new), rubbing(scene, solution, near)
+        back, boundary = returning(scene, solution, new), asperity_friction(scene, solution, near)
         sliding, fixed = walls_of(scene, liquid.temperature)
         thins = scene.lubricant.shear_thinning is not None
         sheared, start = sheared_liquid(scene, solution), _start(near, solution, thins=thins)
@@ -81,7 +81,7 @@ class BetweenWalls:
         free = isinstance(scene.geometry, MovingWall)
         same = start is not None and near is not None and near.temperature.shape == solution.grid.shape
         at_end = power_of_end(solution, start.viscosities.shear) if start is not None and same else None
-        added = [one for one in (at_end, None if rubs is None else rubs.power) if one is not None]
+        added = [one for one in (at_end, None if boundary is None else boundary.power) if one is not None]
 
         def temperatures(inlet: float | None, known: TemperatureAcross | None) -> TemperatureAcross:
             return temperature_across(
@@ -124,7 +124,7 @@ class BetweenWalls:
             to_sliding_wall=balance.sliding_wall,
             imbalance=found.residual,
             shaft=found.shaft if given is None else given,
-            friction=None if rubs is None else rubs.friction,
+            friction=None if boundary is None else boundary.friction,
             walls={
                 "sliding_wall_temperature": found.sliding_wall.temperature,
                 "fixed_wall_temperature": found.fixed_wall.temperature,

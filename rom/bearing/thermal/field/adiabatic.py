@@ -8,6 +8,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import mean_gap
+from roughfilm.rom.bearing.thermal.field.asperity_friction import asperity_friction
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm, hottest, start_of
 from roughfilm.rom.bearing.thermal.field.mixing import (
     MIXED,
@@ -18,7 +19,6 @@ from roughfilm.rom.bearing.thermal.field.mixing import (
     returning,
     seen_from_inside,
 )
-from roughfilm.rom.bearing.thermal.field.rubbing import rubbing
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
@@ -58,7 +58,7 @@ class AdiabaticWalls:
         cooled, back = replaced(scene, solution, liquid), returning(scene, solution, new)
         before = near if near is not None and near.temperature.shape == solution.grid.shape else None
         slopes = before.slopes if before is not None and before.films >= FREE_FILMS else None
-        rubs, at_rest = rubbing(scene, solution, near), viscosity_at_rest(scene, solution, near)
+        boundary, at_rest = asperity_friction(scene, solution, near), viscosity_at_rest(scene, solution, near)
         at_rest, at_end = kept_at_end(solution, at_rest)
 
         def temperatures(inlet: float | None, known: MeanTemperature | None) -> MeanTemperature:
@@ -68,7 +68,7 @@ class AdiabaticWalls:
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
                 exchange=cooled,
                 wall=new,
-                added_power=at_end if rubs is None else at_end + rubs.power,
+                added_power=at_end if boundary is None else at_end + boundary.power,
                 at_rest=at_rest,
                 start=start_of(near, solution) if known is None else known.temperature,
                 slopes=slopes,
@@ -98,7 +98,7 @@ class AdiabaticWalls:
             generated=generated,
             to_lubricant=_taken(found),
             imbalance=found.imbalance,
-            friction=None if rubs is None else rubs.friction,
+            friction=None if boundary is None else boundary.friction,
             start=stress,
             settled=mixture is None or abs(mixture.error) <= MIXED,
             slopes=found.slopes,

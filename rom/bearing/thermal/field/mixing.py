@@ -262,7 +262,7 @@ def at_mixture(
         before, inlet = (inlet, rest), mixture.following
     raise ConvergenceError(
         "temperature: thermal runaway, hot lubricant enters the film again and heats its inlet to "
-        f"{inlet - ZERO_CELSIUS:.4g} degC and above; lower heat.carried_over, or let more new lubricant in through "
+        f"{inlet - ZERO_CELSIUS:.4g} degC and above; lower heat.carried_over, or supply more new lubricant through "
         "sides or supplies",
         outcome=Outcome.DIVERGED,
         iterations=MAX_MIXTURES,

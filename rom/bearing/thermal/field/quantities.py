@@ -8,12 +8,12 @@ import numpy as np
 from roughfilm.contact.foundation.units import ZERO_CELSIUS, Quantity
 from roughfilm.rom.bearing.quantities import Fields, Outputs, scene_positions
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.field.asperity_friction import with_friction
 from roughfilm.rom.bearing.thermal.field.coupling import FIELD_TOLERANCE, Heating
 from roughfilm.rom.bearing.thermal.field.films import HeatedSolution
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.field.hot_spots import circulating_uncertainty
 from roughfilm.rom.bearing.thermal.field.residual import iteration
-from roughfilm.rom.bearing.thermal.field.rubbing import with_friction
 from roughfilm.rom.bearing.uncertainty import HOTTEST_PLACE
 from roughfilm.rom.cavitation.solve import Solution
 

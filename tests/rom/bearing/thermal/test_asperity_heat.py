@@ -45,15 +45,15 @@ def oil(capacity=1.7e6):
 
 
 @pytest.fixture
-def rubbing(tips):
+def boundary_friction(tips):
     scene = tips.scene(LINEAR)
     film = solve(film_of_scene(scene), (8, 8))
     force = asperity_load(film.problem.shape, film.grid, asperities_of(scene)).force
     return film, asperity_heat(film, force, 0.01 * tips.friction)  # as walls that take none would become too hot
 
 
-def test_the_lubricant_takes_the_heat_of_asperities_away(rubbing):
-    film, heat = rubbing
+def test_the_lubricant_takes_the_heat_of_asperities_away(boundary_friction):
+    film, heat = boundary_friction
     plain, hot = mean_temperature(film, oil()), mean_temperature(film, oil(), added_power=heat)
     taken, before = (sum(one.heat_out - one.heat_in for one in found.carried.values()) for found in (hot, plain))
     assert heat.sum() > 0.1 * before
@@ -63,8 +63,8 @@ def test_the_lubricant_takes_the_heat_of_asperities_away(rubbing):
     assert (hot.temperature >= plain.temperature - 1e-9).all()
 
 
-def test_so_it_does_across_the_film_between_walls_that_take_none(rubbing):
-    film, heat = rubbing
+def test_so_it_does_across_the_film_between_walls_that_take_none(boundary_friction):
+    film, heat = boundary_friction
     walls = {"sliding_wall": InsulatedWall(), "fixed_wall": InsulatedWall(), "modes": 4}
     plain, hot = temperature_across(film, oil(), **walls), temperature_across(film, oil(), added_power=heat, **walls)
     assert hot.balance.dissipation - plain.balance.dissipation == pytest.approx(heat.sum(), rel=1e-10)

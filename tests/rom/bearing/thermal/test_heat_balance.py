@@ -243,7 +243,7 @@ def test_lobes_and_pads_have_about_the_mean_temperature_of_the_model_with_a_fiel
 
 
 def test_a_capillary_has_the_viscosity_of_its_supply():
-    """The hot film lets more through, while the capillary keeps its resistance at the temperature of the supply."""
+    """The flow of the hot film is larger, while the capillary keeps its resistance at the temperature of the supply."""
     case = CASES["hydrostatic pad behind a capillary"]
     found = values(solved(**case))
     drop = 3e6 - found["supply_1_pressure"]

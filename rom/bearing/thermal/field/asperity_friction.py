@@ -1,4 +1,4 @@
-"""The heat of asperities that rub, and their coefficient of friction at the temperature of the film."""
+"""The heat of asperities in contact, and their coefficient of friction at the temperature of the film."""
 
 from dataclasses import dataclass
 
@@ -13,14 +13,14 @@ from roughfilm.rom.cavitation.solve import Solution
 
 
 @dataclass(frozen=True)
-class Rubbing:
+class AsperityFriction:
     """The heat of asperities at the nodes, W, shape (nx, ny), and their coefficient of friction."""
 
     power: Array
     friction: float
 
 
-def rubbing(scene: Bearing, solution: Solution, near: HeatedFilm | None) -> Rubbing | None:
+def asperity_friction(scene: Bearing, solution: Solution, near: HeatedFilm | None) -> AsperityFriction | None:
     """The heat of the asperities of a film; None without asperities.
 
     A coefficient over temperature is that at the mean temperature of the contact, weighted by its pressure.
@@ -42,7 +42,7 @@ def rubbing(scene: Bearing, solution: Solution, near: HeatedFilm | None) -> Rubb
     if temperature is not None and pressed > 0:
         at_contact = float((force * temperature).sum()) / pressed
     friction = scene.asperities.friction_at(at_contact)
-    return Rubbing(asperity_heat(solution, force, friction), friction)
+    return AsperityFriction(asperity_heat(solution, force, friction), friction)
 
 
 def with_friction(scene: Bearing, friction: float | None) -> Bearing:

@@ -1,4 +1,4 @@
-"""Films with asperities that rub, whose heat warms the lubricant."""
+"""Films with asperities in contact, whose heat warms the lubricant."""
 
 import pytest
 
