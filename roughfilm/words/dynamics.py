@@ -3,10 +3,10 @@
 import math
 
 from roughfilm.contact.foundation.rounding import with_error
-from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint
 from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.lubricants.thermal.law import celsius
 from roughfilm.words.numbers import digits
 from roughfilm.words.stribeck import SpeedScale, speed_scale
 
@@ -81,7 +81,7 @@ def heat_warnings(scene: Bearing) -> list[str]:
     liquid = scene.lubricant
     if liquid.thermoviscosity is None or liquid.temperature is None:
         return []
-    supplied = f"{liquid.temperature - ZERO_CELSIUS:.4g} degC"
+    supplied = celsius(liquid.temperature)
     return [
         f"lubricant.temperature: the film has the temperature of the supplied lubricant, {supplied}; stiffness and "
         "damping leave heating out; give the effective temperature of the film, which roughfilm solve --model "
