@@ -358,7 +358,7 @@ def test_incomplete_heat_transfer_is_refused(heat, geometry, match):
 def test_entering_lubricant_has_a_temperature_only_with_a_law(tables, place):
     cold = {name: value for name, value in OIL.items() if name != "thermoviscosity"}
     entries = {"name": "cold", "kind": "bearing", "geometry": WEDGE, "motion": {"speed": "1 m/s"}} | tables
-    with pytest.raises(InputError, match=rf"{place}.temperature: got one, but .* without lubricant.thermoviscosity"):
+    with pytest.raises(InputError, match=rf"{place}.temperature: got a temperature, but .* without lubricant.thermoviscosity"):
         read_scene(entries | {"lubricant": cold})
     assert read_scene(entries | {"lubricant": OIL}).isothermal().lubricant.thermoviscosity is None
 
