@@ -204,7 +204,7 @@ def mean_temperature(
     else:
         raise ConvergenceError(
             f"temperature: the heat balances of the film have a relative error of {error:.1e} after {ITERATIONS} "
-            f"Newton steps; it must be {TOLERANCE:g}; take other cells, or walls that take heat",
+            f"Newton steps; it must be {TOLERANCE:g}; take other cells, or the model across, whose walls may take heat",
             outcome=Outcome.STALLED,
             iterations=ITERATIONS,
         )
