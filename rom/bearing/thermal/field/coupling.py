@@ -182,7 +182,7 @@ def _stepped(
 ) -> tuple[FilmT, HeatedT]:
     """The film with the viscosities x + d and its temperatures; with a part of d where there is no such film.
 
-    Under a load a step from a cold film may go beyond the solution, so that nothing carries the load, or the
+    Under a load a step from a cold film may go beyond the solution, so that no film carries the load, or the
     friction of asperities is too large.
 
     Parameters
