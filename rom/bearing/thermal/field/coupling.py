@@ -47,7 +47,10 @@ HOTTEST = 773.15
 MAX_HALVINGS = 4
 """Largest number of times that a step to a film that does not exist is halved."""
 
-RUNAWAY = "lower the speed, the load or the viscosity, or cool the film by more supplied lubricant or its walls"
+RUNAWAY = (
+    "lower the speed, the load or the viscosity, supply more or colder lubricant, or take the model across with walls "
+    "that take heat, table [heat]"
+)
 """Remedy of a thermal runaway."""
 
 
