@@ -233,9 +233,12 @@ def mean_temperature(
 def _runaway(solution: Solution, place: tuple[np.intp, ...]) -> ConvergenceError:
     """The error of a film without a steady temperature, at the place of the largest one."""
     x, y = solution.grid.x[place[0]], solution.grid.y[place[1]]
+    why = "too little of it leaves the film; supply more lubricant, lower the speed"
+    if solution.problem.opening is not None:
+        why = "walls that approach displace lubricant to all sides of a place, at which it stays; let them slide faster"
     return ConvergenceError(
-        f"temperature: the liquid at x = {x:.4g}, y = {y:.4g} heats by more than {MAX_HEATING:g} K, as too little of "
-        "it leaves the film; supply more lubricant, lower the speed, or take walls that take heat",
+        f"temperature: the liquid at x = {x:.4g}, y = {y:.4g} heats by more than {MAX_HEATING:g} K, as {why}, take "
+        "one temperature for the film, or walls that take heat",
         outcome=Outcome.DIVERGED,
     )
 

@@ -85,9 +85,10 @@ class HeatedMarch:
         if not (exchange.flows or exchange.conductance) and exchange.power > 0:
             if self.time_constant:
                 return temperature
+            other = "a start away from the middle, body.start.eccentricity" if self.duty.lobes else "[[supply]]"
             raise InputError(
                 f"heat.time_constant: is missing, and at the time {time:.6g} s no lubricant flows through the film and "
-                "takes its heat away; give it, or a start away from the middle, body.start.eccentricity"
+                f"takes its heat away; give it, or {other}"
             )
         return temperatures(exchange, self.liquid, temperature).effective
 
