@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
-from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
@@ -21,6 +20,7 @@ from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.grid import gaps
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.lubricants.thermal.law import celsius
 from roughfilm.rom.temperature.dissipation import dissipation, film_flows
 
 HeatedT = TypeVar("HeatedT")
@@ -254,8 +254,7 @@ def at_mixture(
         before, inlet = (inlet, rest), mixture.following
     raise ConvergenceError(
         "temperature: thermal runaway, hot lubricant enters the film again and heats its inlet to "
-        f"{inlet - ZERO_CELSIUS:.4g} degC and above; lower heat.carried_over, or supply more new lubricant through "
-        "sides or supplies",
+        f"{celsius(inlet)} and above; lower heat.carried_over, or supply more new lubricant through sides or supplies",
         outcome=Outcome.DIVERGED,
         iterations=MAX_MIXTURES,
     )
