@@ -64,7 +64,21 @@ class HeatedMarch:
         return replace(free, whole=self.film(free.whole, temperature), solved=self.film(free.solved, temperature))
 
     def balanced(self, time: float, instant: Instant, velocity: Array, temperature: float, *, turned: bool) -> float:
-        """T_eq, K, of a film whose lubricant has a temperature, K."""
+        """The temperature T_eq, K, that the heat of a film brings about.
+
+        Parameters
+        ----------
+        time : time, s.
+        instant : position of the wall at this time.
+        velocity : velocity of the wall along its coordinates, m/s.
+        temperature : temperature of the lubricant of the film, K.
+        turned : whether the speed is negative.
+
+        Raises
+        ------
+        InputError
+            If no lubricant takes the heat away, and there is no time constant.
+        """
         seen = replace(self.observer, film=self.observer.film.reversed) if turned else self.observer
         scene, film = self.duty.scene, self.whole(temperature, turned=turned)
         moved = replace(film.whole.problem, speed=abs(self.duty.speed(time)))
