@@ -9,6 +9,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.temperature.anderson import Renewals
 from roughfilm.rom.temperature.basis import Basis, basis
 from roughfilm.rom.temperature.dissipation import flowing
 from roughfilm.rom.temperature.equations import (
@@ -70,6 +71,16 @@ LIMITED_RENEWALS = 12
 
 They would keep changing by little where the temperature is uneven, so that the iteration would not converge.
 """
+
+EXTRAPOLATED = 6
+"""Number of renewals after which the temperature is extrapolated from those before by Anderson's method.
+
+Streamlines that close, and nodes through which little lubricant flows, need so many renewals: sweeps reduce an error
+that circulates by as much as conduction does in one turn alone.
+"""
+
+REMEMBERED = 8
+"""Number of renewals before from which it is extrapolated."""
 
 RESPONSE_SWEEPS = 12
 """Largest number of sweeps for the first response of a film to the temperature of a turning wall."""
@@ -181,6 +192,7 @@ def temperature_across(
     fixed_wall: FixedWall,
     entering: float | Array | None = None,
     added_power: Array | None = None,
+    carried_over: float = 1.0,
     modes: int = MODES,
     start: TemperatureAcross | None = None,
     tolerance: float = TOLERANCE,
@@ -203,6 +215,7 @@ def temperature_across(
         the liquid.
     added_power : further power that heats the lubricant of each node, such as that of asperities in contact, W, shape
         (nx, ny); it is distributed across the film as the dissipation.
+    carried_over : part of the liquid that a film discharges into a gap which enters the next one at most.
     modes : number N of Legendre modes across, from 2.
     start : a field with the same numbers of nodes and modes from which the iteration starts; its ``iterate`` is of use
         on the same grid alone, and is ignored for other numbers of nodes.
@@ -228,7 +241,7 @@ def temperature_across(
     if start is not None and start.temperature.shape != shape:
         raise InputError(f"start: got a field of shape {start.temperature.shape}; it must be {shape}")
     given = liquid.temperature if entering is None else entering
-    parts, moved = basis(modes), carriers(solution)
+    parts, moved = basis(modes), carriers(solution, carried_over)
     if added_power is not None:
         moved = replace(moved, added=added_power)
     temperature = (
@@ -281,8 +294,10 @@ def _solved(
     into_wall, sweeps, renewed, change = np.zeros(temperature.shape[:2]), 0, 0, np.inf
     fixed = film.solution, supply, film.moved, film.nodes, film.parts
     known: Equations | None = None
+    memory = Renewals(remembered=REMEMBERED)
     fall, limit = FALL, RENEWALS if most is None else most
     while True:
+        point = _state(film, heat) if renewed >= EXTRAPOLATED else None
         known = system = equations(*fixed, near, film.walls, heat, reach, known)
         done, renewed = done + 1, renewed + 1
         reach = system.reach if done >= LIMITED_RENEWALS else None
@@ -290,7 +305,7 @@ def _solved(
             slope = _respond(film, system, response)
         changes = _relaxed(film, system, heat, into_wall, response, slope, fall)
         sweeps, change = sweeps + len(changes), changes[0] / _range(heat, near.inverse_capacity)
-        _check_range(film.liquid, heat, sweeps)
+        _check_range(film, heat, sweeps)
         near = linearised(film.liquid, heat, near.near(supply, heat))
         if change <= tolerance or renewed == limit:
             checked = audited(system, film.nodes, film.parts, heat, near.temperature - supply, film.walls)
@@ -298,6 +313,9 @@ def _solved(
             least, fall = max(RESIDUAL_TOLERANCE, rounded), LAST_FALL
             if residual <= least or renewed == limit:
                 break
+        if point is not None:
+            _extrapolate(film, memory, point, heat)
+            near = linearised(film.liquid, heat, near.near(supply, heat))
     settled = residual <= least and change <= tolerance
     if most is None and not settled:
         raise ConvergenceError(
@@ -311,16 +329,42 @@ def _solved(
     return _result(film, system, heat, near, checked, residual, change, settled, sweeps, following)
 
 
-def _check_range(liquid: Liquid, heat: Array, sweeps: int) -> None:
+def _state(film: _Film, heat: Array) -> Array:
+    """The heat at all points, and that at the temperature outside of the sliding wall at the first node, J/m³."""
+    return np.append(heat, _capacity(film.liquid) * film.walls[0].outside[0, 0])
+
+
+def _extrapolate(film: _Film, memory: Renewals, point: Array, heat: Array) -> None:
+    """Extrapolate the heat, and the temperature of a turning wall, from those before and after each renewal.
+
+    A renewal and its sweeps are a map of the heat that is almost affine once the limited factors stay the same.
+    Conduction and what flows in and out make it a contraction, whose slow parts, one of each closed streamline, are
+    what Anderson's method removes.
+    """
+    found = memory.following(point, _state(film, heat))
+    heat[...] = found[:-1].reshape(heat.shape)
+    if film.turning:
+        film.walls[0].outside[...] = found[-1] / _capacity(film.liquid)
+
+
+def _check_range(film: _Film, heat: Array, sweeps: int) -> None:
     """Raise ConvergenceError if the heat is not finite, or beyond the range of all laws of viscosity."""
-    capacity = float(np.ravel(liquid.heat(np.array([liquid.temperature]))[1])[0])
-    if not np.abs(heat).max() <= LARGEST_RISE * capacity:
-        raise ConvergenceError(
-            f"temperature across the film: after {sweeps} sweeps it differs by more than {LARGEST_RISE:g} K from that "
-            "of the supply, where no lubricant is liquid; lower the speed or the viscosity, or cool the film more",
-            outcome=Outcome.DIVERGED,
-            iterations=sweeps,
-        )
+    size, grid = np.abs(heat).max(axis=2), film.solution.grid
+    if size.max() <= LARGEST_RISE * _capacity(film.liquid):
+        return
+    i, j = np.unravel_index(int(np.where(np.isfinite(size), size, np.inf).argmax()), size.shape)
+    raise ConvergenceError(
+        f"temperature across the film: after {sweeps} sweeps it differs by more than {LARGEST_RISE:g} K from that of "
+        f"the supply at x = {grid.x[i]:.4g} m, y = {grid.y[j]:.4g} m, where no lubricant is liquid; lower the speed or "
+        "the viscosity, or the jump of the pressure if edges of the film meet there, or cool the film more",
+        outcome=Outcome.DIVERGED,
+        iterations=sweeps,
+    )
+
+
+def _capacity(liquid: Liquid) -> float:
+    """The heat capacity of a volume at the temperature of the supply, J/(m³ K)."""
+    return float(np.ravel(liquid.heat(np.array([liquid.temperature]))[1])[0])
 
 
 def _relaxed(

@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 from roughfilm.rom.bearing.film import averaging_applies
-from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.tables import Adiabatic, HalfSpace, Heat
 from roughfilm.rom.ladder.model import Applicability
@@ -75,11 +74,10 @@ def across_applies(scene: Bearing) -> Applicability:
         return Applicability(
             applies=False, reason="the scene has no temperature across: lubricant.conductivity missing"
         )
-    lobes = isinstance(scene.geometry, Lobes) and not scene.geometry.single
-    if heat.carried_over < 1 and (lobes or scene.supply):
+    if heat.carried_over < 1 and scene.supply:
         why = (
-            f"heat.carried_over is {heat.carried_over:g} behind {'gaps' if lobes else 'supplies'}, where this model "
-            "carries all hot lubricant over; give 1, or take adiabatic"
+            f"heat.carried_over is {heat.carried_over:g} behind supplies, where this model carries all hot lubricant "
+            "over; give 1, or take adiabatic"
         )
         return Applicability(applies=False, reason=why)
     if isinstance(heat.sliding_wall, HalfSpace) and (scene.motion.speed == 0 or scene.problem().shape.joined[0]):

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.contact.foundation.units import ZERO_CELSIUS
+from roughfilm.rom.lubricants.thermal.law import celsius
 
 MAX_STEP = 20.0
 """Largest step of the temperature before the root is enclosed, K."""
@@ -105,13 +105,10 @@ def balanced(
 
 
 def _unbalanced(at: float, excess: float, why: str) -> str:
-    here, there = at - ZERO_CELSIUS, at + excess - ZERO_CELSIUS
+    here, there = celsius(at), celsius(at + excess)
     if excess > 0:
-        return (
-            f"heat_balance: thermal runaway: at {here:.4g} degC friction heats the film to {there:.4g} degC{why}; "
-            f"{REMEDY}"
-        )
+        return f"heat_balance: thermal runaway: at {here} friction heats the film to {there}{why}; {REMEDY}"
     return (
-        f"heat_balance: at {here:.4g} degC the film cools to {there:.4g} degC{why}; raise heat.surroundings or the "
-        "temperature of the supply"
+        f"heat_balance: at {here} the film cools to {there}{why}; raise heat.surroundings or the temperature of the "
+        "supply"
     )

@@ -20,6 +20,7 @@ from roughfilm.rom.bearing.thermal.field.mixing import (
     seen_from_inside,
 )
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
+from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.shear_thinning.film import thinned
@@ -68,6 +69,7 @@ class AdiabaticWalls:
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
                 exchange=cooled,
                 wall=new,
+                carried_over=(scene.heat or Heat()).carried_over,
                 added_power=at_end if boundary is None else at_end + boundary.power,
                 at_rest=at_rest,
                 start=start_of(near, solution) if known is None else known.temperature,

@@ -8,10 +8,10 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
-from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.thermal.field.nodal import logarithms, own_logarithms
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.lubricants.thermal.law import celsius
 
 FIELD_TOLERANCE = 2e-5
 """Root mean square over the film of the difference of ln η between a film and its temperatures, at which it stops."""
@@ -239,11 +239,11 @@ def contraction(changes: Sequence[float]) -> float:
 
 def _runaway(hottest: Sequence[float]) -> ConvergenceError:
     """The answer that temperatures run away."""
-    first, last = hottest[0] - ZERO_CELSIUS, hottest[-1] - ZERO_CELSIUS
-    grew = f"grew from {first:.4g} to {last:.4g} degC" if len(hottest) > 1 else f"is {last:.4g} degC"
+    last = celsius(hottest[-1])
+    grew = f"grew from {celsius(hottest[0])} to {last}" if len(hottest) > 1 else f"is {last}"
     return ConvergenceError(
         f"temperature: thermal runaway, the greatest temperature of the film {grew}, above "
-        f"{HOTTEST - ZERO_CELSIUS:.4g} degC, where no lubricant is liquid; {RUNAWAY}",
+        f"{celsius(HOTTEST)}, where no lubricant is liquid; {RUNAWAY}",
         outcome=Outcome.DIVERGED,
         iterations=len(hottest),
     )

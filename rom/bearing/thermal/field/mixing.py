@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
-from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
@@ -18,8 +17,10 @@ from roughfilm.rom.bearing.thermal.field.heated import Mixture
 from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.cavitation.evaluation.flows import flow_along, node_balances
 from roughfilm.rom.cavitation.fluid import Viscosities
+from roughfilm.rom.cavitation.grid import gaps
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.lubricants.thermal.law import celsius
 from roughfilm.rom.temperature.dissipation import dissipation, film_flows
 
 HeatedT = TypeVar("HeatedT")
@@ -114,20 +115,12 @@ def new_lubricant(scene: Bearing, solution: Solution, supplied: float) -> Array:
     temperature = np.full(grid.shape, supplied)
     at_inlet = scene.boundary.inlet.temperature
     if at_inlet is not None:
-        temperature[gap_nodes(solution) if shape.joined[0] else np.arange(grid.shape[0]) == 0] = at_inlet
+        for nodes in gaps(shape, grid) if shape.joined[0] else [0]:
+            temperature[nodes] = at_inlet
     for one, inflow in zip(scene.supply, solution.problem.inflows, strict=True):
         if one.temperature is not None:
             temperature[inflow.covers(x, y)] = one.temperature
     return temperature
-
-
-def gap_nodes(solution: Solution) -> NDArray[np.bool_]:
-    """Whether the nodes of each x lie in a gap between films or at its ends, shape (nx,)."""
-    grid, shape = solution.grid, solution.problem.shape
-    if not shape.idle:
-        return np.zeros(grid.shape[0], dtype=bool)
-    within = shape.is_idle(grid.x + grid.spacing_x / 2)
-    return np.asarray(within | np.roll(within, 1))
 
 
 def returning(scene: Bearing, solution: Solution, new: Array) -> Returning | None:
@@ -153,9 +146,9 @@ def returning(scene: Bearing, solution: Solution, new: Array) -> Returning | Non
 
 
 def replaced(scene: Bearing, solution: Solution, liquid: Liquid) -> Array:
-    """The heat transfer coefficient, W/(m² K), that stands for hot lubricant which new lubricant replaces in a groove.
+    """The heat transfer coefficient, W/(m² K), that stands for hot lubricant which new lubricant replaces in a supply.
 
-    Where lubricant flows from a film into a gap or a supply, the part 1 - ``carried_over`` of it is replaced: with its
+    Where lubricant flows from a film into a supply, the part 1 - ``carried_over`` of it is replaced: with its
     flow F and ρ c at the supply, a heat transfer F ρ c (1/carried_over - 1) lowers its temperature above that of the
     new lubricant by the factor ``carried_over``. Shape (nx, ny); 0 where nothing is replaced.
     """
@@ -163,7 +156,6 @@ def replaced(scene: Bearing, solution: Solution, liquid: Liquid) -> Array:
     covered = np.zeros(grid.shape, dtype=bool)
     if kept < 1:
         x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
-        covered[gap_nodes(solution)] = True
         for inflow in solution.problem.inflows:
             covered |= inflow.covers(x, y)
     if not covered.any():
@@ -262,8 +254,7 @@ def at_mixture(
         before, inlet = (inlet, rest), mixture.following
     raise ConvergenceError(
         "temperature: thermal runaway, hot lubricant enters the film again and heats its inlet to "
-        f"{inlet - ZERO_CELSIUS:.4g} degC and above; lower heat.carried_over, or supply more new lubricant through "
-        "sides or supplies",
+        f"{celsius(inlet)} and above; lower heat.carried_over, or supply more new lubricant through sides or supplies",
         outcome=Outcome.DIVERGED,
         iterations=MAX_MIXTURES,
     )

@@ -139,7 +139,7 @@ def test_rules_with_any_slope_converge(slope):
 
 
 def test_temperatures_that_run_away_end_in_one_line():
-    with pytest.raises(ConvergenceError, match=r"thermal runaway.* grew from .* to .* degC, above 500 degC") as caught:
+    with pytest.raises(ConvergenceError, match=r"thermal runaway.* grew from .* to .* °C, above 500 °C") as caught:
         of_rule(lambda _, before: np.full((9, 9), 320.0) if before is None else 1.1 * before)
     assert caught.value.outcome is Outcome.DIVERGED
     assert "\n" not in str(caught.value)
