@@ -15,6 +15,7 @@ from roughfilm.rom.bearing.thermal.field.mixing import (
     COARSE_NODES,
     MIXED,
     at_mixture,
+    mixture_of,
     new_lubricant,
     power_of_end,
     returning,
@@ -83,7 +84,7 @@ class BetweenWalls:
         at_end = power_of_end(solution, start.viscosities.shear) if start is not None and same else None
         added = [one for one in (at_end, None if boundary is None else boundary.power) if one is not None]
 
-        def temperatures(inlet: float | None, known: TemperatureAcross | None) -> TemperatureAcross:
+        def temperatures(inlet: float | None, last: TemperatureAcross | None) -> TemperatureAcross:
             return temperature_across(
                 solution,
                 sheared,
@@ -92,19 +93,21 @@ class BetweenWalls:
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
                 carried_over=heat.carried_over,
                 added_power=sum(added[1:], added[0]) if added else None,
-                start=start if known is None else known,
+                start=start if last is None else last,
                 tolerance=TOLERANCE,
                 renewals=RENEWALS if fine and not free else None,
             )
 
+        known = mixture_of(near, solution)
         if back is None:
             found, mixture = temperatures(None, None), None
         else:
             found, mixture = at_mixture(
                 temperatures,
                 lambda one: back.mixture(liquid, one.carried),
-                back.first if near is None or near.inlet is None else near.inlet,
-                roughly=fine,
+                back.first if known is None else known,
+                viscosities=lambda one: seen_from_inside(one.viscosities, solution),
+                once=fine and known is not None,
             )
         balance, flows = found.balance, film_flows(solution, heat.carried_over)
         leaving = float(np.maximum(-flows.entering, 0.0).sum())

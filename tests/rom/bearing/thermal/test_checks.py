@@ -37,11 +37,11 @@ LAW = {"law": "exponential", "temperature_coefficient": "0.03 1/K"}
         ({"heat": {"fixed_wall": "conducting"}}, r"heat\.fixed_wall: got a conducting wall without a thermal resis"),
         (
             {"heat": {"sliding_wall": {"kind": "conducting", "thickness": "5 mm"}}},
-            r"heat\.sliding_wall\.conductivity: missing beside thickness",
+            r"heat\.sliding_wall\.conductivity: is missing beside thickness",
         ),
         (
             {"heat": {"fixed_wall": {"kind": "conducting", "conductivity": "50 W/(m*K)"}}},
-            r"heat\.fixed_wall\.thickness: missing beside conductivity",
+            r"heat\.fixed_wall\.thickness: is missing beside conductivity",
         ),
         (
             {"heat": {"surroundings": "20 degC"}},
