@@ -67,7 +67,8 @@ class BearingLubricant(Fluid):
 
     Attributes
     ----------
-    oil : name of the liquid in the library, such as "ISO VG 32".
+    oil : name of the liquid in the library: "ISO VG 7" to "ISO VG 3200", "SAE 10" to "SAE 60", "water",
+        "ethylene glycol 50 %" or "propylene glycol 50 %".
     viscosity : viscosity at cavitation pressure, Pa s.
     density : density, kg/m³, needed only for inertia, for a ram pressure, for heat and for a kinematic viscosity.
     cavitation_pressure : cavitation pressure above ambient, Pa.

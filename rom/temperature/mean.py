@@ -207,7 +207,7 @@ def mean_temperature(
     else:
         raise ConvergenceError(
             f"temperature: the heat balances of the film have a relative error of {error:.1e} after {ITERATIONS} "
-            f"Newton steps; it must be {TOLERANCE:g}; take other cells, or walls that take heat",
+            f"Newton steps; it must be {TOLERANCE:g}; take other cells, or the model across with walls that take heat",
             outcome=Outcome.STALLED,
             iterations=ITERATIONS,
         )
@@ -233,9 +233,12 @@ def mean_temperature(
 def _runaway(solution: Solution, place: tuple[np.intp, ...]) -> ConvergenceError:
     """The error of a film without a steady temperature, at the place of the largest one."""
     x, y = solution.grid.x[place[0]], solution.grid.y[place[1]]
+    why = "too little of it leaves the film; lower the speed or the load, supply more lubricant"
+    if solution.problem.opening is not None:
+        why = "walls that approach displace lubricant to all sides of a place, at which it stays; let them slide faster"
     return ConvergenceError(
-        f"temperature: the liquid at x = {x:.4g}, y = {y:.4g} heats by more than {MAX_HEATING:g} K, as too little of "
-        "it leaves the film; supply more lubricant, lower the speed, or take walls that take heat",
+        f"temperature: thermal runaway, the liquid at x = {x:.4g} m, y = {y:.4g} m heats by more than "
+        f"{MAX_HEATING:g} K, as {why}, or take the model across with walls that take heat",
         outcome=Outcome.DIVERGED,
     )
 

@@ -32,15 +32,15 @@ DRAWN_CONTACT_SHARE = 0.3
 """The first film drawn is the one whose asperities carry nearest to this fraction of the load."""
 
 COLUMNS = (
-    ("friction coefficient", "", "friction_coefficient", 1.0),
+    ("friction, coefficient", "", "friction_coefficient", 1.0),
     ("least film (mean gap)", "µm", "least_gap", 1e6),
-    ("carried by contact", "%", "contact_share", 100.0),
-    ("film pressure, largest", "MPa", "pressure_max", 1e-6),
-    ("contact pressure, largest", "MPa", "contact_pressure_max", 1e-6),
+    ("carried, by contact", "%", "contact_share", 100.0),
+    ("film, pressure, largest", "MPa", "pressure_max", 1e-6),
+    ("contact, pressure, largest", "MPa", "contact_pressure_max", 1e-6),
     ("cavitated", "%", "cavitated_fraction", 100.0),
     ("temperature, film", "°C", "temperature", 1.0),
     ("temperature, outlet", "°C", "outlet_temperature", 1.0),
-    ("spots in contact hotter by", "K", "flash_temperature", 1.0),
+    ("spots, in contact, hotter by", "K", "flash_temperature", 1.0),
     ("at least", "K", "flash_temperature_low", 1.0),
     ("at most", "K", "flash_temperature_high", 1.0),
 )

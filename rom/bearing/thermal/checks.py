@@ -1,4 +1,4 @@
-"""Checks of what a scene says about heat, against its lubricant."""
+"""Checks of the heat in a scene, against its lubricant."""
 
 from collections.abc import Mapping
 

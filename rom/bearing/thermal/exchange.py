@@ -95,7 +95,7 @@ def temperatures(exchange: Exchange, liquid: Liquid, film: float) -> Temperature
     Raises
     ------
     InputError
-        If nothing takes the heat away.
+        If neither flows nor the surroundings take the heat away.
     ConvergenceError
         If the heat belongs to no temperature.
 

@@ -55,7 +55,7 @@ class Conducting(Part):
     def _has_a_resistance(self) -> Self:
         if (self.thickness is None) != (self.conductivity is None):
             missing, given = ("thickness", "conductivity") if self.thickness is None else ("conductivity", "thickness")
-            raise ValueError(f"{missing}: missing beside {given}; give both, or leave both out")
+            raise ValueError(f"{missing}: is missing beside {given}; give both, or leave both out")
         if self.thickness is None and self.heat_transfer is None:
             raise ValueError(
                 "got a conducting wall without a thermal resistance; give thickness and conductivity, heat_transfer, "
@@ -145,7 +145,7 @@ class Heat(Part):
     def _gives_off_heat_through_an_area(self) -> Self:
         if (self.heat_transfer is None) != (self.area is None):
             missing, given = ("heat_transfer", "area") if self.heat_transfer is None else ("area", "heat_transfer")
-            raise ValueError(f"{missing}: missing beside heat.{given}; give both, or leave both out")
+            raise ValueError(f"{missing}: is missing beside heat.{given}; give both, or leave both out")
         if self.surroundings is not None and self.area is None:
             raise ValueError(
                 "surroundings: got a temperature without heat_transfer and area, by which heat leaves to them; give "

@@ -26,6 +26,10 @@ def rows_of_file(columns: Mapping[str, str], header: str) -> Callable[[Any], Any
     ----------
     columns : names of both columns and their SI units.
     header : example of a header of the file, for messages.
+
+    Returns
+    -------
+    a function of the entry; it raises ValueError if the file cannot be read.
     """
 
     def rows(entries: Any) -> Any:

@@ -57,7 +57,10 @@ HOTTEST = 773.15
 MAX_HALVINGS = 4
 """Largest number of times that a step to a film that does not exist is halved."""
 
-RUNAWAY = "lower the speed, the load or the viscosity, or cool the film by more supplied lubricant or its walls"
+RUNAWAY = (
+    "lower the speed, the load or the viscosity, supply more or colder lubricant, or take the model across with walls "
+    "that take heat, table [heat]"
+)
 """Remedy of a thermal runaway."""
 
 
@@ -250,7 +253,7 @@ def _stepped(
 ) -> tuple[FilmT, HeatedT]:
     """The film with the next viscosities and its temperatures; with a part of the step where there is no such film.
 
-    Under a load a step from a cold film may go beyond the solution, so that nothing carries the load, or the
+    Under a load a step from a cold film may go beyond the solution, so that no film carries the load, or the
     friction of asperities is too large.
 
     Parameters
