@@ -15,6 +15,7 @@ from roughfilm.rom.bearing.thermal.field.mixing import (
     COARSE_NODES,
     SETTLED,
     at_mixture,
+    flows_back,
     mixture_of,
     new_lubricant,
     power_of_end,
@@ -49,6 +50,9 @@ RENEWALS = 1
 
 The equilibrium of a wall that moves freely costs more than the temperatures, which are then those of each film.
 """
+
+RENEWALS_BACK = 3
+"""The same where lubricant flows back into the end of a film, where the temperature follows the film slowly."""
 
 PATIENCE = 15
 """Number of films on a grid after which the temperatures of each film are iterated to the end.
@@ -88,6 +92,8 @@ class BetweenWalls:
         free = isinstance(scene.geometry, MovingWall)
         same = start is not None and near is not None and near.temperature.shape == solution.grid.shape
         films = near.films + 1 if same and near is not None else 1
+        rough = fine and not free and films <= PATIENCE
+        renewals = (RENEWALS_BACK if flows_back(solution) else RENEWALS) if rough else None
         at_end = power_of_end(solution, start.viscosities.shear) if start is not None and same else None
         added = [one for one in (at_end, None if boundary is None else boundary.power) if one is not None]
 
@@ -102,7 +108,7 @@ class BetweenWalls:
                 added_power=sum(added[1:], added[0]) if added else None,
                 start=start if last is None else last,
                 tolerance=TOLERANCE,
-                renewals=RENEWALS if fine and not free and films <= PATIENCE else None,
+                renewals=renewals,
             )
 
         known = mixture_of(near, solution)
