@@ -25,11 +25,11 @@ def check_heat(lubricant: BearingLubricant, heat: Heat | None, others: Mapping[s
     if place is None:
         return
     if lubricant.lacking:
-        *others, last = (f"lubricant.{key}" for key in lubricant.lacking)
-        missing = f"{', '.join(others)} and {last}" if others else last
+        *first, last = (f"lubricant.{key}" for key in lubricant.lacking)
+        missing = f"{', '.join(first)} and {last}" if first else last
         raise ValueError(
             f"{place}: got {'a table' if place == 'heat' else 'a temperature'}, but the scene has no temperature "
-            f"without {missing}; give {'them' if others else 'it'}, name an oil, or leave {place} out"
+            f"without {missing}; give {'them' if first else 'it'}, name an oil, or leave {place} out"
         )
     supplied = lubricant.temperature
     assert supplied is not None
