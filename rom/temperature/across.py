@@ -201,6 +201,7 @@ def temperature_across(
     fixed_wall: FixedWall,
     entering: float | Array | None = None,
     added_power: Array | None = None,
+    carried_over: float = 1.0,
     modes: int = MODES,
     start: TemperatureAcross | None = None,
     tolerance: float = TOLERANCE,
@@ -223,6 +224,7 @@ def temperature_across(
         the liquid.
     added_power : further power that heats the lubricant of each node, such as that of asperities in contact, W, shape
         (nx, ny); it is distributed across the film as the dissipation.
+    carried_over : part of the liquid that a film discharges into a gap which enters the next one at most.
     modes : number N of Legendre modes across, from 2.
     start : a field with the same numbers of nodes and modes from which the iteration starts; its ``iterate`` is of use
         on the same grid alone, and is ignored for other numbers of nodes.
@@ -248,7 +250,7 @@ def temperature_across(
     if start is not None and start.temperature.shape != shape:
         raise InputError(f"start: got a field of shape {start.temperature.shape}; it must be {shape}")
     given = liquid.temperature if entering is None else entering
-    parts, moved = basis(modes), carriers(solution)
+    parts, moved = basis(modes), carriers(solution, carried_over)
     if added_power is not None:
         moved = replace(moved, added=added_power)
     temperature = (

@@ -1,4 +1,9 @@
-"""The equations of the points across a film at each node, inverted."""
+"""The equations of the points across a film at each node, inverted.
+
+All functions take for each point across the film the flows ``along`` and ``beside`` through the faces of its node
+towards i + 1 and j + 1, m³/s (m²/s if the film is infinitely wide), shape (nx, ny, points); ``before`` and ``below``
+are the indices of the nodes i - 1 and j - 1, or -1 at an end. Functions write into their last arrays.
+"""
 
 from roughfilm.contact.foundation.compiled import called, compiled, inlined
 

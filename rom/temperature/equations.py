@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.fluid import Viscosities
+from roughfilm.rom.cavitation.grid import film_areas
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.basis import Basis
@@ -93,7 +94,7 @@ class Plane:
         An end node has the temperature of its half cell, so that the distance to the next node is halved.
     periodic : whether i is periodic, and j.
     conduction : A ξ k/h, W/K, shape (nx, ny).
-    area : A ξ, the filled area of the control volumes, m² (m if infinitely wide).
+    area : A ξ, the filled area of the control volumes, m² (m if infinitely wide); 0 in gaps between films.
     entering : heat of the lubricant that enters, J/m³, shape (nx, ny).
     """
 
@@ -107,7 +108,7 @@ class Plane:
 def plane(solution: Solution, liquid: Liquid, filling: Array, entering: float | Array) -> Plane:
     """The nodes of a film for a liquid that enters at a temperature, K, a number or of shape (nx, ny)."""
     grid, net = solution.grid, solution.network
-    area = grid.areas * filling
+    area = film_areas(solution.problem.shape, grid) * filling
     given = np.broadcast_to(np.asarray(entering, dtype=float), grid.shape)
     return Plane(
         ratios=(

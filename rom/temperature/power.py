@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.evaluation.filling import filled_fraction
+from roughfilm.rom.cavitation.grid import gaps
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.temperature.dissipation import dissipation, film_flows, passed
 
@@ -41,14 +42,23 @@ class Carriers:
     gradient_y: Array
 
 
-def carriers(solution: Solution) -> Carriers:
-    """The flows through the faces of a film, its power, and the gradients that shape both across the film."""
+def carriers(solution: Solution, carried_over: float = 1.0) -> Carriers:
+    """The flows through the faces of a film, its power, and the gradients that shape both across the film.
+
+    What a gap between two films passes on has the profile of flow by sliding.
+
+    Parameters
+    ----------
+    carried_over : part of the lubricant that a film discharges into a gap which enters the next one at most.
+    """
     grid, net, state, problem = solution.grid, solution.network, solution.state, solution.problem
-    flows = film_flows(solution)
+    flows = film_flows(solution, carried_over)
     excess = problem.compression(state.pressure)[0]
     sliding = net.couette * (state.fill + net.upstream * excess + (1 - net.upstream) * np.roll(excess, -1, axis=0))
     if not net.periodic[0]:
         sliding[-1] = 0.0
+    for nodes in gaps(problem.shape, grid):
+        sliding[nodes[:-1]] = flows.along[nodes[:-1]]
     speed = problem.speed * (grid.radius if problem.shape.polar else np.ones_like(grid.radius))
     rise_x = np.roll(state.pressure, -1, axis=0) - state.pressure
     rise_y = np.roll(state.pressure, -1, axis=1) - state.pressure

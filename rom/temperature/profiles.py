@@ -1,4 +1,7 @@
-"""The velocities and the dissipation across a film, at the Gauss points of every node."""
+"""The velocities and the dissipation across a film, at the Gauss points of every node.
+
+Arrays of points have the shape (nx, ny, points), those of nodes (nx, ny); functions write into their last arrays.
+"""
 
 from roughfilm.contact.foundation.compiled import compiled
 

@@ -1,4 +1,10 @@
-"""Relaxation of the heat in a film, along the flow and back."""
+"""Relaxation of the heat in a film, along the flow and back.
+
+All functions take the heat of each point across the film, ``heat``, shape (nx, ny, points), and for each point the
+flows ``along`` and ``beside`` through the faces towards i + 1 and j + 1, m³/s (m²/s if the film is infinitely wide),
+and the factors ``reach_x`` and ``reach_y`` of the change upstream in the value at these faces, all of the same shape.
+``inflow`` and ``fresh`` are scratch of shape (points,). Functions write into their last arrays.
+"""
 
 from roughfilm.contact.foundation.compiled import called, compiled, inlined
 from roughfilm.rom.temperature.blocks import outflow

@@ -13,7 +13,7 @@ from roughfilm.rom.bearing.free.equilibrium import holding
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.free.solve import placed
 from roughfilm.rom.bearing.geometry.journal import Shaft
-from roughfilm.rom.bearing.mixed.quantities import mixed_quantities
+from roughfilm.rom.bearing.mixed.quantities import contact_quantities
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.evaluation.grids import grid_uncertainty
@@ -152,7 +152,7 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
 
 def static_quantities(film: FreeFilm, instant: Instant) -> dict[str, Quantity]:
     """The quantities of an equilibrium, as those of a solved bearing."""
-    quantities = bearing_quantities if film.scene.asperities is None else mixed_quantities
+    quantities = bearing_quantities if film.scene.asperities is None else contact_quantities
     return quantities(placed(film, instant), film.solution(instant))
 
 
