@@ -71,7 +71,11 @@ def flowing(solution: Solution) -> NDArray[np.bool_]:
     Nodes without a flow, such as corners between edges of one pressure beside a wall at rest, have no temperature of
     the film.
     """
-    flows = film_flows(solution)
+    return passed(film_flows(solution))
+
+
+def passed(flows: Flows) -> NDArray[np.bool_]:
+    """Whether lubricant flows through the nodes, shape (nx, ny), as :func:`flowing`, from the flows of the film."""
     sizes = np.abs(flows.along), np.abs(flows.across)
     through = sum(one + np.roll(one, 1, axis=axis) for axis, one in enumerate(sizes))
     moves = np.asarray(through > STILL * max(float(one.max()) for one in sizes))

@@ -3,12 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.evaluation.filling import filled_fraction
 from roughfilm.rom.cavitation.grid import gaps
 from roughfilm.rom.cavitation.solve import Solution
-from roughfilm.rom.temperature.dissipation import dissipation, film_flows
+from roughfilm.rom.temperature.dissipation import dissipation, film_flows, passed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,6 +26,7 @@ class Carriers:
     added : further power that heats the lubricant, W, with the same profile across the film.
     filling : part of the width that is filled, 1 in the film.
     speed : speed of the wall at the nodes, m/s.
+    flowing : whether lubricant flows through the nodes; True for all nodes of a film in which none flows.
     gradient_x, gradient_y : ∂p/∂x and ∂p/∂y at the nodes over the ratio of viscosities by pressure, Pa/m.
     """
 
@@ -35,6 +37,7 @@ class Carriers:
     added: Array
     filling: Array
     speed: Array
+    flowing: NDArray[np.bool_]
     gradient_x: Array
     gradient_y: Array
 
@@ -69,6 +72,7 @@ def carriers(solution: Solution, carried_over: float = 1.0) -> Carriers:
         added=np.zeros(grid.shape),
         filling=np.clip(filled_fraction(solution), LEAST_FILLING, 1.0),
         speed=np.broadcast_to(speed, grid.shape),
+        flowing=passed(flows),
         gradient_x=ratio * _slope(rise_x, grid.spacing_x[:, None] * grid.radius, 0),
         gradient_y=ratio * _slope(rise_y, np.broadcast_to(grid.spacing_y, grid.shape), 1),
     )

@@ -12,6 +12,10 @@ import numpy as np
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.ladder import find
+from roughfilm.rom.bearing.dynamics.point import DynamicPoint
+from roughfilm.rom.bearing.dynamics.sweep import MIN_CELLS, dynamics
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.validation import journal
@@ -43,12 +47,14 @@ class TableRow:
     case : the row, in words.
     entries : the scene, without temperature.
     isothermal : name of the isothermal model.
+    pressure : load over the nominal area, Pa, at which the table has stiffness and damping; None where it has none.
     """
 
     source: str
     case: str
     entries: dict[str, Any]
     isothermal: str
+    pressure: float | None = None
 
 
 def table_rows() -> Iterator[TableRow]:
@@ -78,6 +84,7 @@ def table_rows() -> Iterator[TableRow]:
             case=f"{bore}, S = {number:g}",
             entries=lund_thomsen.entries(number, lund_thomsen.PRELOADS[bore]),
             isothermal="reynolds_cavitating",
+            pressure=lund_thomsen.mean_pressure(number),
         )
 
 
@@ -87,7 +94,7 @@ class IsoviscousLimit:
 
     Attributes
     ----------
-    compared : number of quantities and fields.
+    compared : number of quantities and fields, each quantity with its uncertainty.
     changed : names of those that differ in a bit.
     reason : why there is no film with a temperature; "" where there is one.
     """
@@ -98,10 +105,13 @@ class IsoviscousLimit:
 
 
 def isoviscous_limits(row: TableRow, cells: int) -> dict[str, IsoviscousLimit]:
-    """The films of a row with a lubricant that heats, by the names of the models, on so many cells along and across."""
+    """The films of a row with a lubricant that heats, by the names of the models, on so many cells along and across.
+
+    ``dynamics`` is added where the table has stiffness and damping, on at least as many cells as it takes.
+    """
     request = Request(resolution=cells)
-    heated = read_scene(row.entries | {"lubricant": row.entries["lubricant"] | HEATED})
-    plain = find("bearing", row.isothermal).solve(read_scene(row.entries), request)
+    cold, heated = read_scene(row.entries), read_scene(row.entries | {"lubricant": row.entries["lubricant"] | HEATED})
+    plain = find("bearing", row.isothermal).solve(cold, request)
     limits = {}
     for model in MODELS:
         try:
@@ -112,7 +122,23 @@ def isoviscous_limits(row: TableRow, cells: int) -> dict[str, IsoviscousLimit]:
         changed = [name for name, one in plain.quantities.items() if hot.quantities[name] != one]
         changed += [name for name, one in plain.fields.items() if not _same(hot.fields[name].values, one.values)]
         limits[model] = IsoviscousLimit(compared=len(plain.quantities) + len(plain.fields), changed=tuple(changed))
+    if row.pressure is not None:
+        size = max(cells, MIN_CELLS)
+        one, other = (_point(scene, row.pressure, size) for scene in (cold, heated))
+        moved = [
+            name
+            for name, value in one.numbers.items()
+            if (other.numbers[name], other.uncertainty[name]) != (value, one.uncertainty[name])
+        ]
+        limits["dynamics"] = IsoviscousLimit(compared=len(one.numbers), changed=tuple(moved))
     return limits
+
+
+def _point(scene: Scene, pressure: float, cells: int) -> DynamicPoint:
+    """Equilibrium, stiffness and damping of a bearing at its speed."""
+    assert isinstance(scene, Bearing)
+    (curve,) = dynamics(scene, [scene.motion.speed], [pressure], resolution=cells)
+    return curve.points[0]
 
 
 def _same(one: Any, other: Any) -> bool:

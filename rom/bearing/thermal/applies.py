@@ -3,6 +3,8 @@
 from dataclasses import replace
 
 from roughfilm.rom.bearing.film import averaging_applies
+from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.tables import Adiabatic, HalfSpace, Heat
 from roughfilm.rom.ladder.model import Applicability
@@ -80,7 +82,9 @@ def across_applies(scene: Bearing) -> Applicability:
             "over; give 1, or take adiabatic"
         )
         return Applicability(applies=False, reason=why)
-    if isinstance(heat.sliding_wall, HalfSpace) and (scene.motion.speed == 0 or scene.problem().shape.joined[0]):
+    ring = isinstance(scene.geometry, Ring) and scene.geometry.endless
+    endless = ring or (isinstance(scene.geometry, Lobes) and not scene.geometry.single)
+    if isinstance(heat.sliding_wall, HalfSpace) and (scene.motion.speed == 0 or endless):
         why = "heat.sliding_wall: a half space needs a film with an inlet past which it slides; take turning"
         return Applicability(applies=False, reason=why)
     return _without(fits, scene, SURROUNDINGS)

@@ -176,7 +176,8 @@ def _difference_maps(
             along.outline(axes)
             axes.label_outer()
         title, scale = fields[name][:2]
-        axes.figure.colorbar(image, ax=line, label=scale.label(f"difference\nin {title}"), shrink=0.95)
+        label = scale.label(f"difference\nin {title}").replace("°C", "K")
+        axes.figure.colorbar(image, ax=line, label=label, shrink=0.95)
 
 
 def _map(axes: Axes, x: Array, y: Array, values: Array, **look: Any) -> Any:

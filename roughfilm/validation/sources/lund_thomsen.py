@@ -84,7 +84,7 @@ def _slope(numbers: Array, lines: list[dict[str, str]], column: str) -> Array:
     return np.asarray(np.gradient([float(line[_heading(column)]) for line in lines], numbers))
 
 
-def _pressure(number: float) -> float:
+def mean_pressure(number: float) -> float:
     """The load over the nominal area at a Sommerfeld number, Pa."""
     return VISCOSITY * REVOLUTIONS * (RADIUS / CLEARANCE) ** 2 / number
 
@@ -105,7 +105,7 @@ def entries(number: float, preload: float) -> dict[str, Any]:
         },
         "lubricant": {"viscosity": f"{VISCOSITY!r} Pa*s"},
         "motion": {"speed": f"{2 * np.pi * REVOLUTIONS * RADIUS!r} m/s"},
-        "load": {"pressure": f"{_pressure(number)!r} Pa"},
+        "load": {"pressure": f"{mean_pressure(number)!r} Pa"},
     }
 
 
@@ -113,7 +113,7 @@ def _point(number: float, preload: float, cells: int) -> DynamicPoint:
     """The point at a Sommerfeld number."""
     scene = read_scene(entries(number, preload))
     assert isinstance(scene, Bearing)
-    (curve,) = dynamics(scene, [scene.motion.speed], [_pressure(number)], resolution=cells)
+    (curve,) = dynamics(scene, [scene.motion.speed], [mean_pressure(number)], resolution=cells)
     return curve.points[0]
 
 

@@ -16,9 +16,11 @@ def test_the_sample_has_rows_of_each_table():
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.source}, {row.case}")
 def test_heat_that_does_not_change_the_viscosity_leaves_every_bit_of_a_published_case(row):
-    for model, limit in isoviscous_limits(row, CELLS).items():
+    limits = isoviscous_limits(row, CELLS)
+    assert ("dynamics" in limits) == (row.source == "lund_thomsen")
+    for model, limit in limits.items():
         if model == "adiabatic" and row.source == "squeeze_butenschoen":
-            assert limit.reason.startswith("temperature: ")  # a film that only drains has no steady one
+            assert "no steady temperature" in limit.reason
         else:
             assert (limit.changed, limit.reason) == ((), ""), model
-            assert limit.compared > 30
+            assert limit.compared > (15 if model == "dynamics" else 30)

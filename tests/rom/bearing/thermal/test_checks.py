@@ -69,6 +69,31 @@ def test_heat_without_effect_or_sense_is_refused_in_one_line(changes, words):
     assert "\n" not in str(refused.value)
 
 
+WIDE_PAD = {"shape": "linear", "length": "50 mm", "rise": "20 um"}
+JOURNAL = {"shape": "journal", "radius": "25 mm", "clearance": "40 um", "width": "25 mm"}
+RING = {"shape": "sector", "inner_radius": "40 mm", "outer_radius": "80 mm", "angle": "45 deg", "rise": "20 um"}
+SOLID = {"conductivity": "50 W/(m*K)", "density": "7800 kg/m^3", "heat_capacity": "460 J/(kg*K)"}
+
+
+@pytest.mark.parametrize(
+    ("geometry", "applies"),
+    [
+        (WIDE_PAD | {"width": "50 mm"}, True),
+        (JOURNAL, True),
+        (RING, True),
+        (RING | {"joined": True}, False),
+        (JOURNAL | {"shape": "lobes"}, False),
+    ],
+)
+def test_a_half_space_slides_past_films_with_an_inlet_also_under_a_load(geometry, applies):
+    sides = {} if applies else {"boundary": {"sides": {"low": "0.1 MPa"}}}
+    heat = {"sliding_wall": {"kind": "half_space", **SOLID}}
+    scene = rf.read_scene(PAD | sides | {"geometry": geometry, "load": {"pressure": "1 MPa"}, "heat": heat})
+    fits = next(one for one in rf.models("bearing") if one.name == "across").applies(scene)
+    assert fits.applies == applies
+    assert applies or "a half space needs a film with an inlet past which it slides; take turning" in fits.reason
+
+
 @pytest.mark.parametrize(
     ("model", "heat", "left"),
     [

@@ -334,8 +334,8 @@ def test_heat_that_nothing_takes_away_is_refused():
 @pytest.mark.parametrize(
     ("heat", "geometry", "match"),
     [
-        ({"heat_transfer": "20 W/(m^2*K)"}, WEDGE, r"heat\.area: missing beside heat.heat_transfer"),
-        ({"area": "1 m^2"}, WEDGE, r"heat\.heat_transfer: missing beside heat.area"),
+        ({"heat_transfer": "20 W/(m^2*K)"}, WEDGE, r"heat\.area: is missing beside heat.heat_transfer"),
+        ({"area": "1 m^2"}, WEDGE, r"heat\.heat_transfer: is missing beside heat.area"),
         (
             COOLED,
             {name: value for name, value in WEDGE.items() if name != "width"},

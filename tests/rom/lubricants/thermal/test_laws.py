@@ -242,6 +242,13 @@ def test_wrong_input_is_refused(name, entries, words):
         THERMAL_LAWS[name].model_validate({"law": name, **entries})
 
 
+def test_a_table_in_fahrenheit_is_refused(tmp_path):
+    path = tmp_path / "viscosity.csv"
+    path.write_text("temperature (degF), viscosity (cP)\n68, 70\n104, 28\n", encoding="utf-8")
+    with pytest.raises(ValueError, match=r"line 1: got a temperature in 'degF'; convert it to degC or K"):
+        law("tabulated", {"table": str(path)})
+
+
 @pytest.mark.parametrize("name", ["vogel", "vogel by constants", "roelands", "walther"])
 def test_temperatures_without_a_viscosity_are_refused(name):
     cold = np.array([350.0, 60.0])

@@ -86,7 +86,7 @@ def test_spots_in_contact_have_a_flash_temperature_with_a_range(swept, tmp_path)
     assert entries["units"]["flash_temperature"] == "K"
     greatest = entries["quantities"]["greatest flash temperature at 1 MPa"]
     assert (greatest["value"], greatest["high"]) == (slow["flash_temperature"], slow["flash_temperature_high"])
-    assert "spots in contact hotter by" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "spots<br>in contact<br>hotter by" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
 
 
 def test_files_hold_what_was_printed(swept):
