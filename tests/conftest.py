@@ -16,7 +16,11 @@ from roughfilm.rom.ladder.scene import load_scene
 POCKET = SCENES / "pocket.toml"
 
 LONG_FILE = "test_transcripts.py"
-"""Would be among the last files, with nothing left for the other process; its tests come first."""
+"""Would be among the last files, with nothing left for the other process; its tests come first.
+
+Its commands compile nearly all kernels (50 s of CPU time where none is kept yet), so that processes beside it find them
+compiled: of 165 kernels less than 0.3 s is spent twice, and compiling them before the tests would save nothing.
+"""
 
 for name in ("FORCE_COLOR", "NO_COLOR", "PY_COLORS", "GITHUB_ACTIONS", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "LINES"):
     os.environ.pop(name, None)  # what a terminal or a build service says about itself; typer reads some at its import

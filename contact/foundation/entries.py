@@ -11,7 +11,7 @@ from pydantic_core import core_schema
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.ranges import RANGES
-from roughfilm.contact.foundation.units import to_si, with_unit
+from roughfilm.contact.foundation.units import ZERO_CELSIUS, SiNumber, to_si, with_unit
 
 REMEDY = "make a changed scene with rf.replace, such as rf.replace(scene, 'geometry.depth', '7.5 um')"
 
@@ -102,7 +102,9 @@ class InUnit:
     def _number(self, text: object) -> float:
         number = to_si(text, self.base)
         if number <= 0 and not self.any_sign:
-            raise ValueError(f"got {text!r:.60}; it must be above zero")
+            zero = f"absolute zero, {-ZERO_CELSIUS} degC" if self.base == "K" else "zero"
+            got = f"{text:.6g} {self.base}" if isinstance(text, SiNumber) else f"{text!r:.60}"
+            raise ValueError(f"got {got}; it must be above {zero}")
         return number
 
 

@@ -132,7 +132,7 @@ def _fault(given: Mapping[str, Any], unknown: Callable[[Location], tuple[str, st
             text = "missing; add it"
         case "int_type" | "bool_type" if isinstance(given["input"], str):
             text = f"got {got}; write it without quotes"
-        case "int_type" | "int_from_float":
+        case "int_type" | "int_from_float" | "int_parsing":
             text = f"got {got}; write a whole number"
         case "greater_than_equal":
             text = f"got {got}; it must be at least {given['ctx']['ge']}"
@@ -143,9 +143,9 @@ def _fault(given: Mapping[str, Any], unknown: Callable[[Location], tuple[str, st
         case "tuple_type":
             text = f"got {got}; write a list in brackets"
         case "too_short":
-            text = f"got {got}; write {given['ctx']['min_length']} values or more"
+            text = f"got {got}; write {given['ctx']['min_length']} entries or more"
         case "too_long":
-            text = f"got {got}; write at most {given['ctx']['max_length']} values"
+            text = f"got {got}; write at most {given['ctx']['max_length']} entries"
         case "model_type" | "model_attributes_type" | "dict_type":
             text = f"got {got}; write a table, with a line for each of its keys"
         case "value_error":

@@ -30,7 +30,7 @@ _SPELLINGS = (
     (re.compile("[µμ]"), "u"),
     (re.compile(r"\*\*"), "^"),
     (re.compile("·"), "*"),
-    (re.compile("°C"), "degC"),
+    (re.compile("°([CF])"), r"deg\1"),
     (re.compile("°"), "deg"),
     (re.compile("⁻"), "-"),
     (re.compile("¹"), "1"),
@@ -82,6 +82,9 @@ _ANGLES = frozenset({"rad", "deg", "turn", "rev", "rpm", "π"})
 """Units whose presence makes a rotational speed one in angles per time; without them it counts revolutions."""
 
 _CELSIUS, ZERO_CELSIUS = "degC", 273.15
+_OTHER_CELSIUS = ("c", "deg", "deg c", "celsius", "centigrade")
+_FAHRENHEIT = ("f", "degf", "deg f", "fahrenheit")
+"""Units of a temperature that are not taken, in small letters."""
 
 _MEANINGS: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "m": ("a length", ("um", "mm", "m", "nm", "cm", "km", "in", "mil")),
@@ -324,6 +327,8 @@ def converted(text: object, base: str) -> float:
     if isinstance(text, int | float):
         raise ValueError(f"got {_brief(text)}, a number without a unit; {_with_units(_brief(text), base)}")
     number, unit = _number_and_unit(text, base)
+    if base == "K":
+        _check_degrees(text, float(number), unit)
     factor = _scale(text, number, unit, base)
     if factor is None:
         raise ValueError(_wrong_dimension(text, unit, base))
@@ -413,22 +418,32 @@ def _scale(text: str, number: str, unit: str, base: str) -> float | None:
     except ValueError:
         pass
     quantity, usual = _MEANINGS.get(base, ("a number", (base,)))
-    near = _in_other_case(unit, usual) or [
+    near = _spelled_otherwise(unit, usual) or [
         one for one in usual if one.lower() in difflib.get_close_matches(unit.lower(), [one.lower() for one in usual])
     ]
     remedy = f"did you mean '{number} {near[0]}'?" if near else f"write {quantity}, in {_either(usual)}"
     raise ValueError(f"got {_brief(text)}, whose unit is not known; {remedy}")
 
 
-def _in_other_case(unit: str, usual: Sequence[str]) -> list[str]:
-    """The usual units that differ from a unit by capital letters alone."""
-    return [one for one in usual if _spelled(one).lower() == unit.lower() and _spelled(one) != unit]
+def _check_degrees(text: str, number: float, unit: str) -> None:
+    """Raise ValueError for a temperature in Fahrenheit, and for degrees Celsius with another name."""
+    if unit.lower() in _FAHRENHEIT:
+        raise ValueError(f"got {text!r}, a temperature in Fahrenheit; write '{(number - 32) / 1.8:.6g} degC'")
+    if unit.lower() in _OTHER_CELSIUS:
+        raise ValueError(f"got {text!r}, which is not a temperature; did you mean '{number:g} degC'?")
+
+
+def _spelled_otherwise(unit: str, usual: Sequence[str]) -> list[str]:
+    """The usual units that differ from a unit by capital letters, or by parentheses and signs of products, alone."""
+    bare = {one: re.sub(r"[*^() ]", "", _spelled(one)) for one in (unit, *usual)}
+    alike = [one for one in usual if bare[one].lower() == bare[unit].lower() and _spelled(one) != unit]
+    return sorted(alike, key=lambda one: bare[one] != bare[unit])
 
 
 def _wrong_dimension(text: str, unit: str, base: str) -> str:
     """The message on a unit of another quantity than that of ``base``."""
     quantity, usual = _MEANINGS.get(base, ("a number", (base,)))
-    if near := _in_other_case(unit, usual):
+    if near := _spelled_otherwise(unit, usual):
         return (
             f"got {text!r}, which has the wrong dimension; did you mean '{_number_and_unit(text, base)[0]} {near[0]}'?"
         )

@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.rounding import share
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.press import Press
-from roughfilm.rom.bearing.asperity_contact import AsperityContact
+from roughfilm.rom.bearing.asperity_contact import FLASH, AsperityContact
 from roughfilm.rom.bearing.roughness import RoughSurface
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.parts.solids import HeatConductor, composite_modulus, hardness
@@ -65,6 +65,11 @@ class FlashTemperature:
     mean: float
     low: float
     high: float
+
+    @property
+    def named(self) -> dict[str, float]:
+        """The estimate and its range by the names of the quantities."""
+        return dict(zip(FLASH, (self.mean, self.low, self.high), strict=True))
 
 
 def spots_of(contact: Contact) -> Spots:

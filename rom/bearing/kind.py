@@ -299,8 +299,8 @@ def composed(scene: Bearing) -> tuple[str, ...]:
     lines = [f"{one.effect}: {one.model}, {one.why}" for one in effect_models(scene)]
     if scene.load is not None:
         film, given = expected_scene(scene).geometry.thinnest, scene.geometry.film
-        first = "" if given is None else f"; the given film of {given:.3g} m is the first value of the search"
-        lines.append(f"load: the film is sought that carries it, about {film:.2g} m{first}")
+        first = "" if given is None else f"; the given film of {1e6 * given:.3g} µm is the first value of the search"
+        lines.append(f"load: the film is sought that carries it, about {1e6 * film:.3g} µm{first}")
     return tuple(lines)
 
 

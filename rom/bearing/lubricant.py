@@ -5,6 +5,7 @@ from typing import Annotated, Any, Self, cast
 
 import numpy as np
 from pydantic import (
+    AfterValidator,
     BeforeValidator,
     Field,
     SerializationInfo,
@@ -31,7 +32,20 @@ from roughfilm.rom.parts.surroundings import GaugePressure
 
 Viscosity = Annotated[float, InUnit("Pa*s")]
 Density = Annotated[float, InUnit("kg/m^3")]
-Expansion = Annotated[float, InUnit("K^-1", any_sign=True)]
+MAX_EXPANSION = 0.01
+"""Largest size of a coefficient of thermal expansion, 1/K."""
+
+
+def _small(expansion: float) -> float:
+    if abs(expansion) > MAX_EXPANSION:
+        raise ValueError(
+            f"got {expansion:g} 1/K; it must be at most {MAX_EXPANSION:g} 1/K in size, of oils it is about 0.0007 1/K; "
+            "check the unit"
+        )
+    return expansion
+
+
+Expansion = Annotated[float, InUnit("K^-1", any_sign=True), AfterValidator(_small)]
 Conductivity = Annotated[float, InUnit("W/(m*K)")]
 
 AGREEMENT = 1e-3
@@ -53,15 +67,16 @@ class BearingLubricant(Fluid):
 
     Attributes
     ----------
-    oil : name of the liquid in the library, such as "ISO VG 32".
+    oil : name of the liquid in the library: "ISO VG 7" to "ISO VG 3200", "SAE 10" to "SAE 60", "water",
+        "ethylene glycol 50 %" or "propylene glycol 50 %".
     viscosity : viscosity at cavitation pressure, Pa s.
     density : density, kg/m³, needed only for inertia, for a ram pressure, for heat and for a kinematic viscosity.
     cavitation_pressure : cavitation pressure above ambient, Pa.
     temperature : temperature T₀ of the supplied lubricant, at which viscosity and density hold, K.
     heat_capacity : specific heat capacity, J/(kg K), or a table of it over temperature.
     conductivity : thermal conductivity, W/(m K).
-    thermal_expansion : coefficient α of the density over temperature, 1/K; by default 0 or, with a law of kinematic
-        viscosities, 0.6278 kg/(m³ K) over the density, that of mineral oils (ASTM D1250).
+    thermal_expansion : coefficient α of the density over temperature, 1/K, at most 0.01 in size; by default 0 or, with
+        a law of kinematic viscosities, 0.6278 kg/(m³ K) over the density, that of mineral oils (ASTM D1250).
     compressibility : law of the density over pressure.
     piezoviscosity : law of the viscosity over pressure.
     thermoviscosity : law of the viscosity over temperature; without it there is no temperature.
@@ -162,9 +177,11 @@ class BearingLubricant(Fluid):
             raise ValueError(str(error).replace("lubricant.thermoviscosity", "temperature", 1)) from None
         if given is not None and not math.isclose(given, value, rel_tol=AGREEMENT):
             assert self.thermoviscosity is not None
+            by_name = self.oil is not None and "thermoviscosity" in self._determined
+            law, of_law = (self.oil, "oil") if by_name else (f"the law {self.thermoviscosity.law}", "thermoviscosity")
             raise ValueError(
-                f"viscosity: got {given:.6g} Pa s, but the law {self.thermoviscosity.law} gives {value:.6g} Pa s at "
-                f"{celsius(self.temperature)}; leave one of them out"
+                f"viscosity: got {given:.6g} Pa s, but {law} has {value:.6g} Pa s at {celsius(self.temperature)}; "
+                f"leave viscosity out, or give your own law in place of {of_law}"
             )
         self.__dict__["viscosity"] = value
 

@@ -20,7 +20,7 @@ from roughfilm.rom.cavitation.evaluation.filling import density_ratio, filled_fr
 from roughfilm.rom.cavitation.evaluation.flows import flow_across, flow_along
 from roughfilm.rom.cavitation.evaluation.friction import drag_of_rows, radius_between
 from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
-from roughfilm.rom.cavitation.grid import Grid
+from roughfilm.rom.cavitation.grid import Grid, gaps
 from roughfilm.rom.cavitation.solve import Solution
 
 EXACT = ("film_min", "film_min_x", "film_min_y")
@@ -161,7 +161,8 @@ class Flows:
     low, high : flows out through the sides at the lowest and at the highest y; zero without open sides.
     displaced : flow -∫ θ ∂h/∂t dA that walls displace which approach each other; negative where they part.
     supplied : whether lubricant is supplied inside of the film.
-    gaps : for each gap between films, in the order of x, the flow out of the film before it and into the one behind it.
+    gaps : for each gap between films the flows of the rows of nodes out of the film before it and into the one behind
+        it, each of shape (ny,).
     """
 
     inlet: float | None
@@ -170,7 +171,7 @@ class Flows:
     high: float
     supplied: bool = False
     displaced: float = 0.0
-    gaps: tuple[tuple[float, float], ...] = ()
+    gaps: tuple[tuple[Array, Array], ...] = ()
 
     @property
     def side_leakage(self) -> float:
@@ -192,26 +193,25 @@ def boundary_flows(solution: Solution) -> Flows:
     along, grid, open_sides = flow_along(solution), solution.grid, solution.problem.ends.sides is not None
     across = flow_across(solution) if open_sides else np.zeros((grid.x.size, 2))
     low, high = -float(across[:, 0].sum()), float(across[:, -2].sum())
-    stored, idle = stored_flow(solution), solution.problem.shape.idle
+    stored, joined = stored_flow(solution), solution.network.periodic[0] and not solution.problem.shape.idle
     displaced, supplied = 0.0 - float(stored.sum()), bool(solution.problem.inflows)
     if open_sides:
         beside = stored if solution.network.periodic[0] else stored[1:-1]
         low, high = low - float(beside[:, 0].sum()), high - float(beside[:, -1].sum())
-    if solution.network.periodic[0] and not idle:
+    if joined:
         return Flows(inlet=None, outlet=None, low=low, high=high, supplied=supplied, displaced=displaced)
     fill, couette, widths = solution.state.fill, solution.network.couette, grid.volume_y * grid.radius
     for row, inner in ((0, 1), (-1, -2)) if open_sides else ():
         filled = along[:, row] + couette[:, row] * (fill[:, inner] - fill[:, row])
         along[:, row] = 0.75 * filled + 0.25 * along[:, inner] * widths[row] / widths[inner]
-    gaps: tuple[tuple[float, float], ...] = ()
-    if idle:
-        within = solution.problem.shape.is_idle(grid.x + grid.spacing_x / 2)
-        gap = within | np.roll(within, 1)
-        begins, ends = np.flatnonzero(gap & ~np.roll(gap, -1)), np.flatnonzero(~gap & np.roll(gap, -1))
-        low, high = -float(across[~gap, 0].sum()), float(across[~gap, -2].sum())
+    between = gaps(solution.problem.shape, grid)
+    if between:
+        film = np.ones(grid.x.size, dtype=bool)
+        film[np.concatenate(between)] = False
+        begins = np.array([nodes[-1] for nodes in between])
+        ends = np.sort([(nodes[0] - 1) % grid.x.size for nodes in between])
+        low, high = -float(across[film, 0].sum()), float(across[film, -2].sum())
         entering = leaving = 0.0
-        before, total = ends[np.searchsorted(ends, begins) - 1], along.sum(axis=1)
-        gaps = tuple((float(total[end]), float(total[begin])) for end, begin in zip(before, begins, strict=True))
     else:
         begins, ends = np.array([0]), np.array([along.shape[0] - 2])
         through = across[[0, -1], -2] - across[[0, -1], 0]
@@ -224,7 +224,7 @@ def boundary_flows(solution: Solution) -> Flows:
         high=high + float(passed[-1]),
         supplied=supplied,
         displaced=displaced,
-        gaps=gaps,
+        gaps=tuple((along[nodes[0] - 1], along[nodes[-1]]) for nodes in between),
     )
 
 
@@ -386,7 +386,7 @@ class Outputs:
         that an iteration around the film leaves, from the films on their grids, the finest first.
     details : details(solution): further numbers of the solver by name.
     warnings : warnings(scene, solution): warnings in addition to those of every film.
-    estimates : quantities that have a range in place of an uncertainty.
+    estimates : quantities that may have no uncertainty for a reason that a range or a warning of their own states.
     """
 
     quantities: Callable[[Bearing, Solution], dict[str, Quantity]] = bearing_quantities

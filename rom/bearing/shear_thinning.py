@@ -34,6 +34,7 @@ class ThinnedFilm:
     viscosities: Viscosities
     stress: Array
     settled: bool = True
+    inlet: None = None
 
 
 @dataclass(frozen=True)

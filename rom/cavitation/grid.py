@@ -6,6 +6,7 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.shape import Shape
@@ -80,6 +81,27 @@ def _halves(places: Array, spacing: Array) -> Iterator[tuple[Array, Array]]:
     before = np.append(spacing[-1], spacing[:-1])
     yield places - before / 4, before / 2
     yield places + spacing / 4, spacing / 2
+
+
+def gaps(shape: Shape, grid: Grid) -> tuple[NDArray[np.int64], ...]:
+    """The nodes along x of each gap between films, from the end of a film to the beginning of the next one.
+
+    They are in the order of the films behind them.
+    """
+    within, count = shape.is_idle(grid.x + grid.spacing_x / 2), grid.x.size
+    first, last = np.flatnonzero(within & ~np.roll(within, 1)), np.flatnonzero(~within & np.roll(within, 1))
+    starts = first[np.searchsorted(first, last) - 1]
+    return tuple(
+        np.arange(begin, begin + (end - begin) % count + 1) % count for begin, end in zip(starts, last, strict=True)
+    )
+
+
+def film_areas(shape: Shape, grid: Grid) -> Array:
+    """Areas of the control volumes without the parts of them in gaps, m² (m if infinitely wide), shape (nx, ny)."""
+    if not shape.idle:
+        return grid.areas
+    spacing = np.where(shape.is_idle(grid.x + grid.spacing_x / 2), 0.0, grid.spacing_x)
+    return (spacing + np.roll(spacing, 1))[:, None] / 2 * (grid.volume_y * grid.radius)
 
 
 def doubled(half: Grid) -> Grid:

@@ -28,8 +28,14 @@ REYN = 6894.757293168
 SAE_RANGE = (10.0, 140.0)
 """Temperatures of the chart to which the viscosities of SAE grades are fitted, °C."""
 
-LIQUID = (-100.0, 500.0)
-"""Temperatures between which a mineral oil may be liquid, °C."""
+LIQUID = (-60.0, 250.0)
+"""Temperatures between which a mineral oil is supplied as a liquid, °C: above its pour point, below decomposition."""
+
+OTHERS = "give thermoviscosity, density, heat_capacity and conductivity of its data sheet in place of oil"
+"""The remedy for a liquid that is not in the library."""
+
+MULTIGRADE = re.compile(r"(?:sae)?(?:0|5|10|15|20|25)w(?:\d\d)?")
+"""The names of SAE grades for winter, without spaces and dashes."""
 
 INDEX = 95.0
 """Viscosity index of the ISO grades."""
@@ -67,7 +73,7 @@ def _plain(name: str) -> str:
 
 
 def found_name(name: object) -> str:
-    """The name of a liquid in the library, for one that differs in capitals and spaces alone.
+    """The name of a liquid in the library, for one that differs in capitals and spaces alone, or lacks "ISO".
 
     Raises
     ------
@@ -80,18 +86,23 @@ def found_name(name: object) -> str:
     'ISO VG 32'
     """
     names = {_plain(one): one for one in sources()}
-    if isinstance(name, str) and _plain(name) in names:
-        return names[_plain(name)]
-    grade = re.fullmatch(r"(?:iso)?vg([235])", _plain(str(name)))
-    if grade:
-        raise ValueError(
-            f"got {name!r:.40}, which is too thin for a viscosity index; give thermoviscosity by the law walther, "
-            "through two points of its data sheet"
-        )
-    near = difflib.get_close_matches(_plain(str(name)), names, n=4, cutoff=0.5)
+    plain = _plain(str(name))
+    if isinstance(name, str) and (known := names.get(plain) or names.get(f"iso{plain}")):
+        return known
+    if re.fullmatch(r"(?:iso)?vg[235]", plain):
+        raise ValueError(f"got {name!r:.40}, which is too thin for a viscosity index; {OTHERS}")
+    if MULTIGRADE.fullmatch(plain):
+        raise ValueError(f"got {name!r:.40}; multigrade oils differ from brand to brand; {OTHERS}")
+    near = difflib.get_close_matches(plain, names, n=3, cutoff=0.7)
     choice = " or ".join(repr(names[one]) for one in near)
-    hint = f"did you mean {choice}?" if near else f"known are {', '.join(sources())}"
-    raise ValueError(f"got {name!r:.40}, which is not in the library; {hint}")
+    hint = f"did you mean {choice}? If not," if near else f"it has {_in_short()};"
+    raise ValueError(f"got {name!r:.40}, which is not in the library; {hint} {OTHERS}")
+
+
+def _in_short() -> str:
+    """The names of the library; of grades the first and the last."""
+    iso, sae = [*_iso_grades()], [one["name"] for one in _data()["sae"]]
+    return ", ".join([f"{iso[0]} to {iso[-1]}", f"{sae[0]} to {sae[-1]}", *(one["name"] for one in _data()["liquid"])])
 
 
 def entries_of(name: str, temperature: float) -> dict[str, Any]:
@@ -122,7 +133,7 @@ def entries_of(name: str, temperature: float) -> dict[str, Any]:
     if not LIQUID[0] <= temperature - ZERO_CELSIUS <= LIQUID[1]:
         raise ValueError(
             f"temperature: got {celsius(temperature)}; it must be from {LIQUID[0]:g} °C to {LIQUID[1]:g} °C, between "
-            "which mineral oils are liquid; check the unit"
+            "which mineral oils are supplied; check the unit"
         )
     if name in grades:
         law: dict[str, Any] = {"law": "iso_vg", "grade": grades[name]}
@@ -195,8 +206,8 @@ def _of_rows(name: str, rows: list[list[float]], temperature: float) -> dict[str
     places = [ZERO_CELSIUS + row[0] for row in rows]
     if not places[0] <= temperature <= places[-1]:
         raise ValueError(
-            f"temperature: got {celsius(temperature)}; the numbers of {name} reach from {celsius(places[0])} to "
-            f"{celsius(places[-1])}"
+            f"temperature: got {celsius(temperature)}; it must be from {celsius(places[0])} to "
+            f"{celsius(places[-1])}, where the library has the numbers of {name}; check the unit, or {OTHERS}"
         )
 
     def at(column: int) -> float:

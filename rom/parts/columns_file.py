@@ -109,8 +109,15 @@ def _head(cell: str, columns: Mapping[str, Sequence[str]], header: str) -> tuple
     for base in allowed[1:]:
         if rotational_speed(f"1 {unit}") is not None if base == "rad/s" else _is_in(unit, base):
             return name, (unit, base)
-    to_si(f"1 {unit}", allowed[0])
+    _check_unit(unit, allowed[0])
     return name, (unit, allowed[0])
+
+
+def _check_unit(unit: str, base: str) -> None:
+    """Raise ValueError if a unit does not measure the quantity of an SI unit."""
+    if base == "K" and not _is_in(unit, base):
+        raise ValueError(f"line 1: got a temperature in {unit!r:.40}; convert it to degC or K")
+    to_si(f"1 {unit}", base)
 
 
 def _is_in(unit: str, base: str) -> bool:
@@ -202,5 +209,5 @@ def _units(first: list[str], columns: Mapping[str, str], header: str) -> list[st
         raise ValueError(f"line 1: got {', '.join(first)!r:.60}; write two columns with units, such as: {header}")
     units = [column[2] for column in matches if column]
     for unit, base in zip(units, columns.values(), strict=True):
-        to_si(f"1 {unit}", base)
+        _check_unit(unit, base)
     return units

@@ -9,8 +9,8 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.temperature.anderson import Renewals
 from roughfilm.rom.temperature.basis import Basis, basis
-from roughfilm.rom.temperature.dissipation import flowing
 from roughfilm.rom.temperature.equations import (
     Audit,
     Equations,
@@ -23,7 +23,7 @@ from roughfilm.rom.temperature.equations import (
     viscosities_across,
 )
 from roughfilm.rom.temperature.power import Carriers, carriers
-from roughfilm.rom.temperature.sweeps import summarise, sweep
+from roughfilm.rom.temperature.sweeps import extremes, summarise, sweep
 from roughfilm.rom.temperature.walls import FixedWall, SlidingWall, TurningWall, WallCondition, condition
 
 MODES = 8
@@ -35,8 +35,11 @@ TOLERANCE = 1e-4
 The sweeps after it reduce the error further, to about a tenth.
 """
 
-RESIDUAL_TOLERANCE = 5e-9
-"""Largest residual of the equations with the last viscosities."""
+RESIDUAL_TOLERANCE = 2.5e-9
+"""Largest residual of the equations with the last viscosities, over the sum of four heat flows.
+
+These are the power, what enters and what both walls take, so that the balance holds to 1e-8 of the largest one.
+"""
 
 RENEWALS = 60
 """Largest number of times that viscosities and equations are renewed."""
@@ -59,8 +62,8 @@ NEAR_PEAK = 0.02
 LEAST_RANGE = 0.01
 """Range of the temperature, K, below which changes are over this range."""
 
-ROUND_OFF = 1024 * float(np.finfo(float).eps)
-"""Round-off of the residuals over the heat that the absolute temperature would conduct across the film."""
+ROUND_OFF = 2048 * float(np.finfo(float).eps)
+"""Round-off of the residuals over the heat that the rise of the temperature would conduct across the film."""
 
 LARGEST_RISE = 1000.0
 """Largest difference from the temperature of the supply, K, before the iteration ends."""
@@ -70,6 +73,16 @@ LIMITED_RENEWALS = 12
 
 They would keep changing by little where the temperature is uneven, so that the iteration would not converge.
 """
+
+EXTRAPOLATED = 6
+"""Number of renewals after which the temperature is extrapolated from those before by Anderson's method.
+
+Streamlines that close, and nodes through which little lubricant flows, need so many renewals: sweeps reduce an error
+that circulates by as much as conduction does in one turn alone.
+"""
+
+REMEMBERED = 8
+"""Number of renewals before from which it is extrapolated."""
 
 RESPONSE_SWEEPS = 12
 """Largest number of sweeps for the first response of a film to the temperature of a turning wall."""
@@ -122,6 +135,7 @@ class Iterate:
     renewals : number of renewals of viscosities from the first start on.
     response : change of the heat by the temperature of a turning wall, J/(m³ K); None for other walls.
     slope : change of the heat flow into a turning wall by its temperature, W/K.
+    contraction : change of the second sweep with the same equations over that of the first one, measured last.
     """
 
     near: Linearised | None
@@ -129,6 +143,7 @@ class Iterate:
     renewals: int
     response: Array | None
     slope: float
+    contraction: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -181,6 +196,7 @@ def temperature_across(
     fixed_wall: FixedWall,
     entering: float | Array | None = None,
     added_power: Array | None = None,
+    carried_over: float = 1.0,
     modes: int = MODES,
     start: TemperatureAcross | None = None,
     tolerance: float = TOLERANCE,
@@ -203,6 +219,7 @@ def temperature_across(
         the liquid.
     added_power : further power that heats the lubricant of each node, such as that of asperities in contact, W, shape
         (nx, ny); it is distributed across the film as the dissipation.
+    carried_over : part of the liquid that a film discharges into a gap which enters the next one at most.
     modes : number N of Legendre modes across, from 2.
     start : a field with the same numbers of nodes and modes from which the iteration starts; its ``iterate`` is of use
         on the same grid alone, and is ignored for other numbers of nodes.
@@ -228,7 +245,7 @@ def temperature_across(
     if start is not None and start.temperature.shape != shape:
         raise InputError(f"start: got a field of shape {start.temperature.shape}; it must be {shape}")
     given = liquid.temperature if entering is None else entering
-    parts, moved = basis(modes), carriers(solution)
+    parts, moved = basis(modes), carriers(solution, carried_over)
     if added_power is not None:
         moved = replace(moved, added=added_power)
     temperature = (
@@ -281,23 +298,35 @@ def _solved(
     into_wall, sweeps, renewed, change = np.zeros(temperature.shape[:2]), 0, 0, np.inf
     fixed = film.solution, supply, film.moved, film.nodes, film.parts
     known: Equations | None = None
+    memory = Renewals(remembered=REMEMBERED)
     fall, limit = FALL, RENEWALS if most is None else most
+    contraction = np.inf if before is None else before.contraction
+    low, high = extremes(heat)
+    extent = max(high - low, LEAST_RANGE * _capacity(film.liquid))
     while True:
+        point = _state(film, heat) if renewed >= EXTRAPOLATED else None
         known = system = equations(*fixed, near, film.walls, heat, reach, known)
         done, renewed = done + 1, renewed + 1
         reach = system.reach if done >= LIMITED_RENEWALS else None
         if response is not None and (slope == 0 or renewed == 2):
             slope = _respond(film, system, response)
-        changes = _relaxed(film, system, heat, into_wall, response, slope, fall)
-        sweeps, change = sweeps + len(changes), changes[0] / _range(heat, near.inverse_capacity)
-        _check_range(film.liquid, heat, sweeps)
+        changes = _relaxed(film, system, heat, into_wall, response, slope, fall, contraction, tolerance * extent)
+        if len(changes) > 1 and changes[0] > 0:
+            contraction = changes[1] / changes[0]
+        sweeps, (low, high) = sweeps + len(changes), extremes(heat)
+        _check_range(film, heat, max(high, -low) if np.isfinite(changes[-1]) else np.inf, sweeps)
+        extent = max(high - low, LEAST_RANGE * _capacity(film.liquid))
+        change = changes[0] / extent
         near = linearised(film.liquid, heat, near.near(supply, heat))
         if change <= tolerance or renewed == limit:
-            checked = audited(system, film.nodes, film.parts, heat, near.temperature - supply, film.walls)
-            residual, rounded = _residual(film, system, checked, near.temperature, supply)
+            checked = audited(system, film.nodes, film.parts, heat, near.rise(heat), film.walls)
+            residual, rounded = _residual(film, checked)
             least, fall = max(RESIDUAL_TOLERANCE, rounded), LAST_FALL
             if residual <= least or renewed == limit:
                 break
+        if point is not None:
+            _extrapolate(film, memory, point, heat)
+            near = linearised(film.liquid, heat, near.near(supply, heat))
     settled = residual <= least and change <= tolerance
     if most is None and not settled:
         raise ConvergenceError(
@@ -307,20 +336,48 @@ def _solved(
             outcome=Outcome.UNFINISHED,
             iterations=sweeps,
         )
-    following = Iterate(near=near, reach=system.reach, renewals=done, response=response, slope=slope)
+    following = Iterate(
+        near=near, reach=system.reach, renewals=done, response=response, slope=slope, contraction=contraction
+    )
     return _result(film, system, heat, near, checked, residual, change, settled, sweeps, following)
 
 
-def _check_range(liquid: Liquid, heat: Array, sweeps: int) -> None:
-    """Raise ConvergenceError if the heat is not finite, or beyond the range of all laws of viscosity."""
-    capacity = float(np.ravel(liquid.heat(np.array([liquid.temperature]))[1])[0])
-    if not np.abs(heat).max() <= LARGEST_RISE * capacity:
-        raise ConvergenceError(
-            f"temperature across the film: after {sweeps} sweeps it differs by more than {LARGEST_RISE:g} K from that "
-            "of the supply, where no lubricant is liquid; lower the speed or the viscosity, or cool the film more",
-            outcome=Outcome.DIVERGED,
-            iterations=sweeps,
-        )
+def _state(film: _Film, heat: Array) -> Array:
+    """The heat at all points, and that at the temperature outside of the sliding wall at the first node, J/m³."""
+    return np.append(heat, _capacity(film.liquid) * film.walls[0].outside[0, 0])
+
+
+def _extrapolate(film: _Film, memory: Renewals, point: Array, heat: Array) -> None:
+    """Extrapolate the heat, and the temperature of a turning wall, from those before and after each renewal.
+
+    A renewal and its sweeps are a map of the heat that is almost affine once the limited factors stay the same.
+    Conduction and what flows in and out make it a contraction, whose slow parts, one of each closed streamline, are
+    what Anderson's method removes.
+    """
+    found = memory.following(point, _state(film, heat))
+    heat[...] = found[:-1].reshape(heat.shape)
+    if film.turning:
+        film.walls[0].outside[...] = found[-1] / _capacity(film.liquid)
+
+
+def _check_range(film: _Film, heat: Array, largest: float, sweeps: int) -> None:
+    """Raise ConvergenceError if the largest size of a heat is not finite, or beyond all laws of viscosity."""
+    if largest <= LARGEST_RISE * _capacity(film.liquid):
+        return
+    size, grid = np.abs(heat).max(axis=2), film.solution.grid
+    i, j = np.unravel_index(int(np.where(np.isfinite(size), size, np.inf).argmax()), size.shape)
+    raise ConvergenceError(
+        f"temperature across the film: after {sweeps} sweeps it differs by more than {LARGEST_RISE:g} K from that of "
+        f"the supply at x = {grid.x[i]:.4g} m, y = {grid.y[j]:.4g} m, where no lubricant is liquid; lower the speed or "
+        "the viscosity, or the jump of the pressure if edges of the film meet there, or cool the film more",
+        outcome=Outcome.DIVERGED,
+        iterations=sweeps,
+    )
+
+
+def _capacity(liquid: Liquid) -> float:
+    """The heat capacity of a volume at the temperature of the supply, J/(m³ K)."""
+    return float(np.ravel(liquid.heat(np.array([liquid.temperature]))[1])[0])
 
 
 def _relaxed(
@@ -331,11 +388,20 @@ def _relaxed(
     response: Array | None,
     slope: float,
     fall: float,
+    contraction: float,
+    small: float,
 ) -> list[float]:
-    """Sweep until the mean change has fallen; a turning wall takes the temperature at which it gets no heat."""
+    """Sweep until the mean change has fallen; a turning wall takes the temperature at which it gets no heat.
+
+    The second sweep is left out where the first one changes more than ``small``, so that viscosities are renewed again,
+    and where it would change little by the ``contraction`` of the sweeps before.
+    """
     changes: list[float] = []
-    while len(changes) < SWEEPS and not (changes and changes[-1] <= fall * changes[0]):
+    fallen = False
+    while len(changes) < SWEEPS and not fallen:
         changes.append(_sweep(film, system, heat, into_wall))
+        once = len(changes) == 1
+        fallen = contraction <= fall and changes[0] > small if once else changes[-1] <= fall * changes[0]
         if response is not None and slope < 0:
             step = -float((film.nodes.area * into_wall).sum()) / slope
             heat += step * response
@@ -343,14 +409,9 @@ def _relaxed(
     return changes
 
 
-def _range(heat: Array, inverse_capacity: Array) -> float:
-    """The range of the heat, J/m³, at least that of ``LEAST_RANGE``."""
-    return max(float(np.ptp(heat)), LEAST_RANGE / float(inverse_capacity.max()))
-
-
 def _sweep(film: _Film, system: Equations, heat: Array, into_wall: Array) -> float:
     """Sweep down the film and back over the rows into which lubricant flows back; returns the mean change, J/m³."""
-    back = np.flatnonzero((system.along < 0).any(axis=(1, 2)))[::-1]
+    back = np.flatnonzero(system.backward)[::-1]
     rows = np.concatenate([np.arange(heat.shape[0]), back])
     parts = (system.along, system.beside, *system.reach, *film.nodes.periodic, *system.solved)
     sliding, size = film.walls[0], film.parts.points.size
@@ -373,15 +434,11 @@ def _respond(film: _Film, system: Equations, response: Array) -> float:
     return slope
 
 
-def _residual(film: _Film, system: Equations, checked: Audit, temperature: Array, supply: float) -> tuple[float, float]:
+def _residual(film: _Film, checked: Audit) -> tuple[float, float]:
     """The sum of the sizes of the residuals over the power and the heat flows in, and its round-off."""
-    wrong = float(np.abs(checked.residuals).sum())
+    wrong, rounded, scale = checked.residuals, ROUND_OFF * checked.conducted, checked.scale
     if film.turning:
         wrong += abs(float((film.nodes.area * checked.into_sliding).sum()))
-    entering = float(np.abs(system.entering * film.nodes.entering[..., None]).sum())
-    walls = float((film.nodes.area * (np.abs(checked.into_sliding) + np.abs(checked.into_fixed))).sum())
-    scale = float(np.abs(_power(film, system, temperature - supply)).sum()) + entering + walls
-    rounded = ROUND_OFF * float((film.nodes.conduction * np.abs(temperature).max(axis=2)).sum())
     return (wrong / scale, rounded / scale) if scale > 0 else (wrong, rounded)
 
 
@@ -405,8 +462,8 @@ def _result(
     leaving, stored = summarise(temperature, heat, *flows, parts.weights, parts.ends, nodes.periodic[0], *written)
     largest, place = _largest(film, temperature, peaks)
     balance = HeatBalance(
-        dissipation=float(_power(film, system, temperature - film.liquid.temperature).sum()),
-        entering=float((system.entering.sum(axis=2) * nodes.entering).sum()),
+        dissipation=checked.power,
+        entering=checked.entering,
         leaving=float(leaving),
         sliding_wall=float((nodes.area * checked.into_sliding).sum()),
         fixed_wall=float((nodes.area * checked.into_fixed).sum()),
@@ -433,21 +490,15 @@ def _result(
     )
 
 
-def _power(film: _Film, system: Equations, rise: Array) -> Array:
-    """The dissipation of the nodes, W, linear in T - T₀."""
-    softer = np.einsum("ijn,ijn->ij", system.softening, rise)
-    entering = system.entering.sum(axis=2) * film.nodes.entering
-    return np.asarray(system.source.sum(axis=2) - entering + system.heating.sum(axis=2) * softer)
-
-
 def _largest(film: _Film, temperature: Array, peaks: Array) -> tuple[float, tuple[float, float, float]]:
     """The largest temperature of the polynomials, K, and its position (x, y, ζ), where lubricant flows.
 
     Only nodes whose points are almost as hot as the hottest one are searched.
     """
-    peaks = np.where(flowing(film.solution), peaks, -np.inf)
+    peaks = np.where(film.moved.flowing, peaks, -np.inf)
     places = np.linspace(0, 1, PLACES)
-    candidates = np.argwhere(peaks >= peaks.max() - NEAR_PEAK * float(np.ptp(temperature)))
+    least, greatest = extremes(temperature)
+    candidates = np.argwhere(peaks >= peaks.max() - NEAR_PEAK * (greatest - least))
     values = temperature[candidates[:, 0], candidates[:, 1]] @ film.parts.values(places).T
     node, place = np.unravel_index(int(values.argmax()), values.shape)
     i, j = candidates[node]

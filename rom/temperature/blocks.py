@@ -1,4 +1,9 @@
-"""The equations of the points across a film at each node, inverted."""
+"""The equations of the points across a film at each node, inverted.
+
+All functions take for each point across the film the flows ``along`` and ``beside`` through the faces of its node
+towards i + 1 and j + 1, m³/s (m²/s if the film is infinitely wide), shape (nx, ny, points); ``before`` and ``below``
+are the indices of the nodes i - 1 and j - 1, or -1 at an end. Functions write into their last arrays.
+"""
 
 from roughfilm.contact.foundation.compiled import called, compiled, inlined
 
@@ -142,18 +147,23 @@ def multiply(matrix, row, right, size, total):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def blocks(along, beside, leaving, stored, upward, source, heating, softening, conduction, area, inverse_capacity, offset, holds_0, resistance_0, holds_1, resistance_1, outside_1, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, scratch, rows, right, lanes, inverse, constant, wall, flux, flux_constant, flux_wall):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+def blocks(along, beside, leaving, stored, upward, source, heating, softening, conduction, area, inverse_capacity, offset, holds_0, resistance_0, holds_1, resistance_1, outside_1, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, scratch, rows, right, pulls, lanes, inverse, constant, wall, flux, flux_constant, flux_wall):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """Write the solution of the equations of each node, E = constant + wall T + inverse b, and the flux into the wall.
 
     E is the heat per volume at the points, T the temperature outside of the condition of the sliding wall, and b what
     flows in. The flux is flux_constant + flux_wall T + flux b. The temperature at the points is offset + E
     inverse_capacity, above that of the supply as all temperatures. What enters from outside is source + heating times
-    the sum of softening times the temperatures. The conditions of both walls are equations with the fluxes into them as
-    unknowns. ``rows`` is a view of ``scratch``, the matrices of some nodes of a row.
+    the sum of softening times the temperatures. The flux into a wall with a resistance is that of the temperature at
+    the wall; the conditions of walls at given temperatures are equations with the fluxes into them as unknowns.
+    ``rows`` is a view of ``scratch``, the matrices of some nodes of a row.
     """
     nx, ny, size = along.shape
-    conducts, rises, offsets, heats, softens = lanes[0], lanes[1], lanes[2], lanes[3], lanes[4]
-    factor, total, shift, softer = lanes[5, 0], lanes[5, 1], lanes[6, 0], lanes[6, 1]
+    inverses, rises, offsets, heats, softens = lanes[0], lanes[1], lanes[2], lanes[3], lanes[4]
+    factor, total, shift, softer, pull_0, pull_1 = pulls[0], pulls[1], pulls[2], pulls[3], pulls[4], pulls[5]
+    given_0, given_1 = resistance_0[0, 0] == 0.0, resistance_1[0, 0] == 0.0
+    first = size
+    second = size + 1 if given_0 else size
+    order = second + 1 if given_1 else second
     for i in range(nx):
         before = i - 1 if i > 0 else (nx - 1 if periodic_x else -1)
         for start in range(0, ny, total.size):
@@ -161,55 +171,88 @@ def blocks(along, beside, leaving, stored, upward, source, heating, softening, c
             for w in range(count):
                 j = start + w
                 shift[w] = conduction[i, j]
+                pull_0[w] = 0.0 if given_0 else area[i, j] * holds_0 / resistance_0[i, j]
+                pull_1[w] = 0.0 if given_1 else area[i, j] * holds_1 / resistance_1[i, j]
                 softer[w] = 0.0
                 for n in range(size):
-                    conducts[n, w] = conduction[i, j] * inverse_capacity[i, j, n]
+                    inverses[n, w] = inverse_capacity[i, j, n]
                     rises[n, w] = upward[i, j, n]
                     offsets[n, w] = offset[i, j, n]
                     heats[n, w] = heating[i, j, n]
                     softens[n, w] = softening[i, j, n] * inverse_capacity[i, j, n]
                     softer[w] += softening[i, j, n] * offset[i, j, n]
-                    right[n, w] = source[i, j, n]
-            right[size], right[size + 1] = 0.0, 0.0
+                    right[n, w] = source[i, j, n] + pull_1[w] * ends[1, n] * outside_1[i, j]
             for m in range(size):
                 for n in range(size):
-                    slope, stiff = slopes[n, m], stiffness[m, n]
-                    block, conducted, risen, given, known = scratch[m, n], conducts[n], rises[n], offsets[n], right[m]
+                    slope, stiff, low, high = (
+                        slopes[n, m],
+                        stiffness[m, n],
+                        ends[0, m] * ends[0, n],
+                        ends[1, m] * ends[1, n],
+                    )
+                    block, each, risen, given, known = scratch[m, n], inverses[n], rises[n], offsets[n], right[m]
                     heated, softened = heats[m], softens[n]
                     for w in range(total.size):
-                        block[w] = stiff * conducted[w] - slope * risen[w] - heated[w] * softened[w]
-                        known[w] -= stiff * shift[w] * given[w]
+                        conducted = stiff * shift[w] + low * pull_0[w] + high * pull_1[w]
+                        block[w] = conducted * each[w] - slope * risen[w] - heated[w] * softened[w]
+                        known[w] -= conducted * given[w]
                 for w in range(total.size):
                     right[m, w] += heats[m, w] * softer[w]
-                    right[size, w] -= holds_0 * ends[0, m] * offsets[m, w]
-                    right[size + 1, w] -= holds_1 * ends[1, m] * offsets[m, w]
             for w in range(count):
                 j = start + w
                 below = j - 1 if j > 0 else (ny - 1 if periodic_y else -1)
                 for m in range(size):
                     out = leaving[i, j, m] - weights[m] * stored[i, j]
                     scratch[m, m, w] += out + outflow(along, beside, reach_x, reach_y, before, below, i, j, m)
-                    scratch[m, size, w] = area[i, j] * ends[0, m]
-                    scratch[m, size + 1, w] = area[i, j] * ends[1, m]
-                    scratch[size, m, w] = holds_0 * ends[0, m] * inverse_capacity[i, j, m]
-                    scratch[size + 1, m, w] = holds_1 * ends[1, m] * inverse_capacity[i, j, m]
-                right[size + 1, w] += holds_1 * outside_1[i, j]
-                scratch[size, size, w] = -resistance_0[i, j]
-                scratch[size, size + 1, w] = 0.0
-                scratch[size + 1, size, w] = 0.0
-                scratch[size + 1, size + 1, w] = -resistance_1[i, j]
-            invert(rows, size + 2, factor)
+            if given_0:
+                border(scratch, right, 0, first, order, area, i, start, count, ends, inverses, offsets)
+            if given_1:
+                border(scratch, right, 1, second, order, area, i, start, count, ends, inverses, offsets)
+                for w in range(count):
+                    right[second, w] += outside_1[i, start + w]
+            invert(rows, order, factor)
             for m in range(size):
-                multiply(scratch, m, right, size + 2, total)
+                multiply(scratch, m, right, order, total)
                 for w in range(count):
                     constant[i, start + w, m] = total[w]
-            multiply(scratch, size, right, size + 2, total)
             for w in range(count):
                 j = start + w
-                flux_constant[i, j] = total[w]
-                flux_wall[i, j] = holds_0 * scratch[size, size, w]
                 for n in range(size):
-                    wall[i, j, n] = holds_0 * scratch[n, size, w]
-                    flux[i, j, n] = scratch[size, n, w]
                     for m in range(size):
                         inverse[i, j, n, m] = scratch[m, n, w]
+                if given_0:
+                    flux_constant[i, j], flux_wall[i, j] = 0.0, scratch[first, first, w]
+                    for n in range(order):
+                        flux_constant[i, j] += scratch[first, n, w] * right[n, w]
+                    for n in range(size):
+                        wall[i, j, n] = scratch[n, first, w]
+                        flux[i, j, n] = scratch[first, n, w]
+                    continue
+                taken = pull_0[w] / area[i, j]
+                flux_constant[i, j], flux_wall[i, j] = 0.0, -taken
+                for m in range(size):
+                    wall[i, j, m], flux[i, j, m] = 0.0, 0.0
+                if taken == 0.0:
+                    continue
+                for n in range(size):
+                    low, each = pull_0[w] * ends[0, n], taken * ends[0, n] * inverses[n, w]
+                    flux_constant[i, j] += taken * ends[0, n] * offsets[n, w] + each * constant[i, j, n]
+                    for m in range(size):
+                        wall[i, j, m] += low * inverse[i, j, n, m]
+                        flux[i, j, m] += each * inverse[i, j, m, n]
+                for n in range(size):
+                    flux_wall[i, j] += taken * ends[0, n] * inverses[n, w] * wall[i, j, n]
+
+
+@called
+def border(scratch, right, end, row, order, area, i, start, count, ends, inverses, offsets):  # type: ignore[no-untyped-def]
+    """Write the equation of a wall at a given temperature, and its flux into the equations of the points."""
+    size = inverses.shape[0]
+    for w in range(count):
+        for n in range(size, order):
+            scratch[row, n, w] = 0.0
+        right[row, w] = 0.0
+        for m in range(size):
+            scratch[m, row, w] = area[i, start + w] * ends[end, m]
+            scratch[row, m, w] = ends[end, m] * inverses[m, w]
+            right[row, w] -= ends[end, m] * offsets[m, w]

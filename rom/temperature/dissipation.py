@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.evaluation.flows import balances, flow_across, flow_along, node_storage
 from roughfilm.rom.cavitation.evaluation.friction import pull_across, pull_along, radius_between
+from roughfilm.rom.cavitation.grid import gaps
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import Solution
 
@@ -35,11 +36,33 @@ class Flows:
     stored: Array
 
 
-def film_flows(solution: Solution) -> Flows:
-    """The flows of a film."""
+def film_flows(solution: Solution, carried_over: float = 1.0) -> Flows:
+    """The flows of a film.
+
+    A gap between two films passes on a part of what the one before it discharges (:func:`passed_on`). The rest leaves
+    at its first node, and new lubricant enters at its last one: the film thickness in the gap has no effect.
+
+    Parameters
+    ----------
+    carried_over : largest part of the lubricant that a film discharges into a gap which the gap passes on.
+    """
     along, across = flow_along(solution), flow_across(solution)
+    for nodes in gaps(solution.problem.shape, solution.grid):
+        along[nodes[:-1]] = passed_on(along[nodes[0] - 1], along[nodes[-1]], carried_over)
+        across[nodes] = 0.0
     entering = balances(solution, along, across)
     return Flows(along=along, across=across, entering=entering, stored=node_storage(solution))
+
+
+def passed_on(leaving: Array, entering: Array, carried_over: float) -> Array:
+    """The lubricant that leaves a film and enters the next one, min(c Q_out, Q_in), at least 0, m³/s, in its rows.
+
+    Parameters
+    ----------
+    leaving, entering : flows Q_out out of the film before a gap and Q_in into the one behind it, m³/s, shape (rows,).
+    carried_over : c, the part of Q_out that may enter again.
+    """
+    return np.clip(carried_over * leaving, 0.0, np.maximum(entering, 0.0))
 
 
 def flowing(solution: Solution) -> NDArray[np.bool_]:
@@ -48,7 +71,11 @@ def flowing(solution: Solution) -> NDArray[np.bool_]:
     Nodes without a flow, such as corners between edges of one pressure beside a wall at rest, have no temperature of
     the film.
     """
-    flows = film_flows(solution)
+    return passed(film_flows(solution))
+
+
+def passed(flows: Flows) -> NDArray[np.bool_]:
+    """Whether lubricant flows through the nodes, shape (nx, ny), as :func:`flowing`, from the flows of the film."""
     sizes = np.abs(flows.along), np.abs(flows.across)
     through = sum(one + np.roll(one, 1, axis=axis) for axis, one in enumerate(sizes))
     moves = np.asarray(through > STILL * max(float(one.max()) for one in sizes))

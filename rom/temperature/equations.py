@@ -3,16 +3,18 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.fluid import Viscosities
+from roughfilm.rom.cavitation.grid import film_areas
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.basis import Basis
 from roughfilm.rom.temperature.blocks import LANES, blocks, exchange, sources, upward_flows
 from roughfilm.rom.temperature.power import Carriers
 from roughfilm.rom.temperature.profiles import divide, profile
-from roughfilm.rom.temperature.sweeps import audit, reaches
+from roughfilm.rom.temperature.sweeps import audit, extremes, reaches
 from roughfilm.rom.temperature.walls import WallCondition
 
 NEWTON_STEPS = 20
@@ -47,22 +49,35 @@ class Linearised:
 
     def near(self, supply: float, heat: Array) -> Array:
         """T at a heat near that of these temperatures, to second order."""
-        return supply + self.offset + heat * self.inverse_capacity
+        temperature = self.rise(heat)
+        temperature += supply
+        return temperature
+
+    def rise(self, heat: Array) -> Array:
+        """T - T₀ at such a heat, with the round-off of the rise."""
+        rise = heat * self.inverse_capacity
+        rise += self.offset
+        return rise
 
 
 def linearised(liquid: Liquid, heat: Array, temperature: Array) -> Linearised:
     """The temperature and the viscosity near a heat, J/m³, from temperatures near it, K, by Newton's method."""
+    step = np.empty_like(heat)
     for _ in range(NEWTON_STEPS):
         value, capacity = liquid.heat(temperature)
-        step = (heat - value) / capacity
-        if float(np.abs(step).max()) <= TEMPERATURE_ACCURACY:
+        np.subtract(heat, value, out=step)
+        step /= capacity
+        if max(float(step.max()), -float(step.min())) <= TEMPERATURE_ACCURACY:
             break
         temperature = temperature + step
     inverse = 1 / capacity
     viscosity, steepness = (np.ascontiguousarray(values) for values in liquid.viscosity(temperature))
+    # E at the rounded T in place of E: T - T₀ at E then has the round-off of a small rise, not that of T itself
+    offset = temperature - liquid.temperature
+    offset -= np.multiply(value, inverse, out=step)
     return Linearised(
         temperature=temperature,
-        offset=(temperature - liquid.temperature) - heat * inverse,
+        offset=offset,
         inverse_capacity=inverse,
         viscosity=viscosity,
         steepness=steepness,
@@ -79,7 +94,7 @@ class Plane:
         An end node has the temperature of its half cell, so that the distance to the next node is halved.
     periodic : whether i is periodic, and j.
     conduction : A ξ k/h, W/K, shape (nx, ny).
-    area : A ξ, the filled area of the control volumes, m² (m if infinitely wide).
+    area : A ξ, the filled area of the control volumes, m² (m if infinitely wide); 0 in gaps between films.
     entering : heat of the lubricant that enters, J/m³, shape (nx, ny).
     """
 
@@ -93,7 +108,7 @@ class Plane:
 def plane(solution: Solution, liquid: Liquid, filling: Array, entering: float | Array) -> Plane:
     """The nodes of a film for a liquid that enters at a temperature, K, a number or of shape (nx, ny)."""
     grid, net = solution.grid, solution.network
-    area = grid.areas * filling
+    area = film_areas(solution.problem.shape, grid) * filling
     given = np.broadcast_to(np.asarray(entering, dtype=float), grid.shape)
     return Plane(
         ratios=(
@@ -126,6 +141,7 @@ class Equations:
     Attributes
     ----------
     along, beside : flows of the points through the faces towards i + 1 and j + 1.
+    backward : whether lubricant flows backward through a face of i towards i + 1, shape (nx,).
     entering, leaving : flows of the points from and to the outside.
     stored : what leaves the nodes without an unknown flow, at the temperature of each point, shape (nx, ny).
     upward : flow towards the fixed wall through the surfaces of the points, times their weights.
@@ -138,6 +154,7 @@ class Equations:
 
     along: Array
     beside: Array
+    backward: NDArray[np.bool_]
     entering: Array
     leaving: Array
     stored: Array
@@ -184,15 +201,19 @@ def equations(
     moving = moved.speed, moved.gradient_x, moved.gradient_y
     across = parts.points, parts.weights, parts.integrals
     profiles = drift, push, heating, softening
-    profile(near.viscosity, near.steepness, *across, thickness, *moving, *profiles, shear)
-    divide(moved.sliding, moved.pressing, moved.across, drift, push, *nodes.periodic, along, beside)
-    renewed = RENEWED * max(float(np.abs(one).max()) for one in (along, beside))
+    profile(
+        near.viscosity, near.steepness, *across, thickness, *moving, *profiles, shear, np.empty(size), np.empty(size)
+    )
+    backward = np.empty(shape[0], dtype=bool)
+    faces = along, beside, backward
+    renewed = RENEWED * divide(moved.sliding, moved.pressing, moved.across, drift, push, *nodes.periodic, *faces)
     exchange(along, beside, net.supplied, drift, push, net.fixed, *nodes.periodic, renewed, entering, leaving, stored)
     rising = np.ascontiguousarray((parts.weights[:, None] * parts.integrals / parts.weights).T)
     upward_flows(along, beside, entering, leaving, stored, parts.weights, rising, *nodes.periodic, upward)
     if reach is None:
         reach = np.empty(shape), np.empty(shape)
-        reaches(heat, along, beside, *nodes.ratios, *nodes.periodic, OVERSHOOT * float(np.ptp(heat)), *reach)
+        least, greatest = extremes(heat)
+        reaches(heat, along, beside, *nodes.ratios, *nodes.periodic, OVERSHOOT * (greatest - least), *reach)
     source, power = np.empty(shape), moved.fluid_power * shear
     sources(entering, nodes.entering, power, moved.added, near.temperature, supply, softening, heating, source)
     sliding, fixed = walls
@@ -202,11 +223,12 @@ def equations(
         *(near.inverse_capacity, near.offset, sliding.holds, sliding.resistance),
         *(fixed.holds, fixed.resistance, fixed.outside),
         *(parts.weights, parts.slopes, parts.stiffness, parts.ends, *reach, *nodes.periodic),
-        *(scratch, scratch.reshape(size + 2, -1), right, np.ones((7, size, LANES)), *solved),
+        *(scratch, scratch.reshape(size + 2, -1), right, np.ones((6, LANES)), np.ones((5, size, LANES)), *solved),
     )
     return Equations(
         along=along,
         beside=beside,
+        backward=backward,
         entering=entering,
         leaving=leaving,
         stored=stored,
@@ -229,11 +251,24 @@ def viscosities_across(parts: Basis, viscosity: Array) -> Viscosities:
 
 @dataclass(frozen=True, kw_only=True)
 class Audit:
-    """Fluxes into the sliding and the fixed wall, W/m² of filled area, shape (nx, ny), and residuals, W."""
+    """The fluxes into the walls, and sums over a film.
+
+    Attributes
+    ----------
+    into_sliding, into_fixed : fluxes into the walls, W/m² of filled area, shape (nx, ny).
+    residuals : sum of the sizes of the residuals of all equations, W.
+    power, entering : the dissipation and the heat that enters, W.
+    scale : sum of the sizes of the dissipation, of the heat that enters and of what walls take, W.
+    conducted : sum of what the largest rise of each node would conduct across the film, W.
+    """
 
     into_sliding: Array
     into_fixed: Array
-    residuals: Array
+    residuals: float
+    power: float
+    entering: float
+    scale: float
+    conducted: float
 
 
 def audited(
@@ -244,14 +279,22 @@ def audited(
     rise: Array,
     walls: tuple[WallCondition, WallCondition],
 ) -> Audit:
-    """The fluxes into the walls and the residuals of all equations, of a heat and T - T₀, K."""
-    sliding, fixed = walls
-    rest, into = np.empty(heat.shape), (np.empty(heat.shape[:2]), np.empty(heat.shape[:2]))
-    audit(
+    """The fluxes into the walls, the residuals and the sums of a heat and T - T₀, K."""
+    (sliding, fixed), into = walls, (np.empty(heat.shape[:2]), np.empty(heat.shape[:2]))
+    residuals, power, generated, brought, entering, taken, conducted = audit(
         *(heat, rise, system.along, system.beside, system.leaving, system.stored),
-        *(system.upward, system.source, system.heating, system.softening, nodes.conduction, nodes.area),
+        *(system.upward, system.source, system.heating, system.softening, system.entering, nodes.entering),
+        *(nodes.conduction, nodes.area),
         *(sliding.holds, sliding.resistance, sliding.outside, fixed.holds, fixed.resistance, fixed.outside),
         *(parts.points, parts.weights, parts.slopes, parts.stiffness, parts.ends, *system.reach, *nodes.periodic),
-        *(np.empty(parts.points.size), *into, rest),
+        *(np.empty(parts.points.size), *into),
     )
-    return Audit(into_sliding=into[0], into_fixed=into[1], residuals=rest)
+    return Audit(
+        into_sliding=into[0],
+        into_fixed=into[1],
+        residuals=residuals,
+        power=power,
+        entering=entering,
+        scale=generated + brought + taken,
+        conducted=conducted,
+    )

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.fluid import Viscosities
+from roughfilm.rom.cavitation.grid import gaps
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.temperature.dissipation import Flows, dissipation, film_flows
@@ -79,8 +80,8 @@ class MeanTemperature:
     dissipation : power that each node dissipates, W, shape (nx, ny).
     to_walls : heat from each node to the walls, W, shape (nx, ny).
     stored : heat that the nodes of a film with moving walls store, W.
-    carried : what flows carry at ``inlet``, ``outlet``, ``sides``, ``supply_1`` and so on, and ``inside`` of the film,
-        where the mass balance has a residual.
+    carried : what flows carry at ``inlet``, ``outlet``, ``sides``, ``gaps`` between films, ``supply_1`` and so on, and
+        ``inside`` of the film, where the mass balance has a residual.
     imbalance : relative error of the heat balance of the film.
     outlet_temperature : mean temperature of the liquid that leaves the film, by its flow, K; NaN if none leaves.
     highest : position (x, y) of the largest temperature.
@@ -107,6 +108,7 @@ def mean_temperature(
     exchange: float | Array = 0.0,
     wall: float | Array | None = None,
     added_power: float | Array = 0.0,
+    carried_over: float = 1.0,
     at_rest: Array | None = None,
     start: Array | None = None,
     slopes: tuple[Array, Array] | None = None,
@@ -135,6 +137,7 @@ def mean_temperature(
     exchange : U, coefficient of the heat transfer to both walls together, W/(m² K).
     wall : T_w, temperature of the walls, K; by default that of the supply.
     added_power : further power that heats the liquid of each node, such as that of asperities in contact, W.
+    carried_over : part of the liquid that a film discharges into a gap which enters the next one at most.
     at_rest : viscosity at rest of the temperatures with which the film was solved, Pa s, shape (nx, ny), of a liquid
         that thins with shear: W then changes as the viscosity at rest does. By default η is that of the solution.
     start : temperature from which to start, K, shape (nx, ny).
@@ -150,7 +153,7 @@ def mean_temperature(
 
     Source: conservation of energy; linear upwind differences, Warming and Beam 1976, doi:10.2514/3.61457.
     """
-    flows = film_flows(solution)
+    flows = film_flows(solution, carried_over)
     shape = solution.grid.shape
     inlet = np.broadcast_to(liquid.temperature if entering is None else entering, shape)
     walls = np.broadcast_to(liquid.temperature if wall is None else wall, shape)
@@ -204,7 +207,7 @@ def mean_temperature(
     else:
         raise ConvergenceError(
             f"temperature: the heat balances of the film have a relative error of {error:.1e} after {ITERATIONS} "
-            f"Newton steps; it must be {TOLERANCE:g}; take other cells, or walls that take heat",
+            f"Newton steps; it must be {TOLERANCE:g}; take other cells, or the model across with walls that take heat",
             outcome=Outcome.STALLED,
             iterations=ITERATIONS,
         )
@@ -230,9 +233,12 @@ def mean_temperature(
 def _runaway(solution: Solution, place: tuple[np.intp, ...]) -> ConvergenceError:
     """The error of a film without a steady temperature, at the place of the largest one."""
     x, y = solution.grid.x[place[0]], solution.grid.y[place[1]]
+    why = "too little of it leaves the film; lower the speed or the load, supply more lubricant"
+    if solution.problem.opening is not None:
+        why = "walls that approach displace lubricant to all sides of a place, at which it stays; let them slide faster"
     return ConvergenceError(
-        f"temperature: the liquid at x = {x:.4g}, y = {y:.4g} heats by more than {MAX_HEATING:g} K, as too little of "
-        "it leaves the film; supply more lubricant, lower the speed, or take walls that take heat",
+        f"temperature: thermal runaway, the liquid at x = {x:.4g} m, y = {y:.4g} m heats by more than "
+        f"{MAX_HEATING:g} K, as {why}, or take the model across with walls that take heat",
         outcome=Outcome.DIVERGED,
     )
 
@@ -294,6 +300,9 @@ def _carried(solution: Solution, flows: Flows, gained: Array, heat: Array) -> di
         places[name] = nodes & rest
         rest[nodes] = False
 
+    between = gaps(solution.problem.shape, solution.grid)
+    if between:
+        place("gaps", np.isin(np.arange(rest.shape[0]), np.concatenate(between))[:, None] & rest)
     x, y = np.meshgrid(solution.grid.x, solution.grid.y, indexing="ij")
     for number, inflow in enumerate(solution.problem.inflows, start=1):
         place(f"supply_{number}", inflow.covers(x, y))

@@ -3,11 +3,13 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.evaluation.filling import filled_fraction
+from roughfilm.rom.cavitation.grid import gaps
 from roughfilm.rom.cavitation.solve import Solution
-from roughfilm.rom.temperature.dissipation import dissipation, film_flows
+from roughfilm.rom.temperature.dissipation import dissipation, film_flows, passed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,6 +26,7 @@ class Carriers:
     added : further power that heats the lubricant, W, with the same profile across the film.
     filling : part of the width that is filled, 1 in the film.
     speed : speed of the wall at the nodes, m/s.
+    flowing : whether lubricant flows through the nodes; True for all nodes of a film in which none flows.
     gradient_x, gradient_y : ∂p/∂x and ∂p/∂y at the nodes over the ratio of viscosities by pressure, Pa/m.
     """
 
@@ -34,18 +37,28 @@ class Carriers:
     added: Array
     filling: Array
     speed: Array
+    flowing: NDArray[np.bool_]
     gradient_x: Array
     gradient_y: Array
 
 
-def carriers(solution: Solution) -> Carriers:
-    """The flows through the faces of a film, its power, and the gradients that shape both across the film."""
+def carriers(solution: Solution, carried_over: float = 1.0) -> Carriers:
+    """The flows through the faces of a film, its power, and the gradients that shape both across the film.
+
+    What a gap between two films passes on has the profile of flow by sliding.
+
+    Parameters
+    ----------
+    carried_over : part of the lubricant that a film discharges into a gap which enters the next one at most.
+    """
     grid, net, state, problem = solution.grid, solution.network, solution.state, solution.problem
-    flows = film_flows(solution)
+    flows = film_flows(solution, carried_over)
     excess = problem.compression(state.pressure)[0]
     sliding = net.couette * (state.fill + net.upstream * excess + (1 - net.upstream) * np.roll(excess, -1, axis=0))
     if not net.periodic[0]:
         sliding[-1] = 0.0
+    for nodes in gaps(problem.shape, grid):
+        sliding[nodes[:-1]] = flows.along[nodes[:-1]]
     speed = problem.speed * (grid.radius if problem.shape.polar else np.ones_like(grid.radius))
     rise_x = np.roll(state.pressure, -1, axis=0) - state.pressure
     rise_y = np.roll(state.pressure, -1, axis=1) - state.pressure
@@ -59,6 +72,7 @@ def carriers(solution: Solution) -> Carriers:
         added=np.zeros(grid.shape),
         filling=np.clip(filled_fraction(solution), LEAST_FILLING, 1.0),
         speed=np.broadcast_to(speed, grid.shape),
+        flowing=passed(flows),
         gradient_x=ratio * _slope(rise_x, grid.spacing_x[:, None] * grid.radius, 0),
         gradient_y=ratio * _slope(rise_y, np.broadcast_to(grid.spacing_y, grid.shape), 1),
     )

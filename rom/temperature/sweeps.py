@@ -1,4 +1,10 @@
-"""Relaxation of the heat in a film, along the flow and back."""
+"""Relaxation of the heat in a film, along the flow and back.
+
+All functions take the heat of each point across the film, ``heat``, shape (nx, ny, points), and for each point the
+flows ``along`` and ``beside`` through the faces towards i + 1 and j + 1, m³/s (m²/s if the film is infinitely wide),
+and the factors ``reach_x`` and ``reach_y`` of the change upstream in the value at these faces, all of the same shape.
+``inflow`` and ``fresh`` are scratch of shape (points,). Functions write into their last arrays.
+"""
 
 from roughfilm.contact.foundation.compiled import called, compiled, inlined
 from roughfilm.rom.temperature.blocks import outflow
@@ -129,32 +135,51 @@ def sweep(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, inverse
 
 
 @compiled
-def audit(heat, temperature, along, beside, leaving, stored, upward, source, heating, softening, conduction, area, holds_0, resistance_0, outside_0, holds_1, resistance_1, outside_1, points, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, inflow, into_0, into_1, rest):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
-    """Write the fluxes into both walls and the residuals of the equations of every node, W, of the given heat.
+def audit(heat, rise, along, beside, leaving, stored, upward, source, heating, softening, entering, heat_in, conduction, area, holds_0, resistance_0, outside_0, holds_1, resistance_1, outside_1, points, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, rest, into_0, into_1):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+    """Write the fluxes into both walls of a given heat, and return sums over the film, W.
 
-    What enters from outside is as in ``blocks``. A wall at a given temperature takes the flux that balances the node.
+    ``rise`` are the temperatures above that of the supply, and what enters from outside is as in ``blocks``. A wall at
+    a given temperature takes the flux that balances the node. Conduction depends on differences of the temperature
+    across the film alone, so that its round-off is that of the differences.
+
+    Returns
+    -------
+    residuals, power, generated, brought, entering, taken, conducted
+        The sums of the sizes of all residuals, of the dissipation and its size, of the size of the heat that enters and
+        of that heat, of the sizes of what the walls take, and of what the largest rise of each node would conduct.
     """
     nx, ny, size = heat.shape
+    residuals, power, generated, brought, entered, taken, conducted = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(nx):
         before = i - 1 if i > 0 else (nx - 1 if periodic_x else -1)
         for j in range(ny):
             below = j - 1 if j > 0 else (ny - 1 if periodic_y else -1)
-            gather(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, i, j, inflow)
-            own, t = heat[i, j], temperature[i, j]
-            total, high, low_end, high_end, softer = 0.0, 0.0, 0.0, 0.0, 0.0
+            gather(heat, along, beside, reach_x, reach_y, periodic_x, periodic_y, i, j, rest)
+            own, t = heat[i, j], rise[i, j]
+            low_end, high_end, softer, hottest, dissipated = 0.0, 0.0, 0.0, 0.0, 0.0
             for m in range(size):
                 softer += softening[i, j, m] * t[m]
+                low_end += ends[0, m] * t[m]
+                high_end += ends[1, m] * t[m]
+                hottest = max(hottest, abs(t[m]))
             for m in range(size):
                 out = leaving[i, j, m] - weights[m] * stored[i, j]
                 out += outflow(along, beside, reach_x, reach_y, before, below, i, j, m)
-                lacks = inflow[m] + source[i, j, m] + heating[i, j, m] * softer - out * own[m]
-                for n in range(size):
-                    lacks += slopes[n, m] * upward[i, j, n] * own[n] - conduction[i, j] * stiffness[m, n] * t[n]
-                rest[i, j, m] = lacks
-                total += lacks
-                high += points[m] * lacks
-                low_end += ends[0, m] * t[m]
-                high_end += ends[1, m] * t[m]
+                taken_in = entering[i, j, m] * heat_in[i, j]
+                more = source[i, j, m] + heating[i, j, m] * softer
+                rest[m] += more - out * own[m]
+                dissipated += more - taken_in
+                brought += abs(taken_in)
+                entered += taken_in
+            for n in range(size):
+                risen, lost = upward[i, j, n] * own[n], conduction[i, j] * (t[n] - t[0])
+                slope, stiff = slopes[n], stiffness[n]
+                for m in range(size):
+                    rest[m] += slope[m] * risen - stiff[m] * lost
+            total, high = 0.0, 0.0
+            for m in range(size):
+                total += rest[m]
+                high += points[m] * rest[m]
             given_0, given_1 = resistance_0[i, j] == 0.0, resistance_1[i, j] == 0.0
             first = 0.0 if given_0 else holds_0 * (low_end - outside_0[i, j]) / resistance_0[i, j]
             second = 0.0 if given_1 else holds_1 * (high_end - outside_1[i, j]) / resistance_1[i, j]
@@ -167,7 +192,25 @@ def audit(heat, temperature, along, beside, leaving, stored, upward, source, hea
                 second = total / area[i, j] - first
             into_0[i, j], into_1[i, j] = first, second
             for m in range(size):
-                rest[i, j, m] -= area[i, j] * (ends[0, m] * first + ends[1, m] * second)
+                residuals += abs(rest[m] - area[i, j] * (ends[0, m] * first + ends[1, m] * second))
+            power += dissipated
+            generated += abs(dissipated)
+            taken += area[i, j] * (abs(first) + abs(second))
+            conducted += conduction[i, j] * hottest
+    return residuals, power, generated, brought, entered, taken, conducted
+
+
+@compiled
+def extremes(values):  # type: ignore[no-untyped-def]
+    """The least and the greatest of all values, shape (nx, ny, N)."""
+    least, greatest = values[0, 0, 0], values[0, 0, 0]
+    nx, ny, size = values.shape
+    for i in range(nx):
+        for j in range(ny):
+            for m in range(size):
+                least = min(least, values[i, j, m])
+                greatest = max(greatest, values[i, j, m])
+    return least, greatest
 
 
 @compiled

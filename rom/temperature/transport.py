@@ -7,6 +7,10 @@ The heat per volume e of the liquid that leaves a node towards its neighbours al
 
 with the neighbour upstream in the same direction: linear upwind differences, limited by the slope towards the next node
 downstream.
+
+All arrays have the shape (nx, ny): ``along`` and ``across`` are F, ``slope_x`` and ``slope_y`` are a and b, ``face_x``
+and ``face_y`` are e_x and e_y, J/m³, and ``heat`` is e, J/m³; ``spacing_x``, shape (nx,), and ``spacing_y``, shape
+(ny,), are the distances of the nodes from the next ones, m. Functions write into their last arrays.
 """
 
 from roughfilm.contact.foundation.compiled import compiled, inlined
@@ -15,7 +19,7 @@ STEEPEST = 1.5
 """Slope towards the next node downstream over the slope at a node, up to which the latter is taken in full.
 
 1 is the minmod limiter, 2 the largest value without overshoot. Above 1 smooth fields are not limited, so that their
-slopes are not iterated; with 2 the iteration of limited ones hardly converges.
+slopes are not iterated; with 2 the iteration of limited ones converges slowly, if at all.
 """
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.cavitation.grid import gaps
 from roughfilm.rom.cavitation.solve import Solution
 
 
@@ -63,6 +64,9 @@ class SlidingHalfSpace:
     temperature: float
 
 
+NO_WALL = 1e9
+"""Resistance of a wall in a gap between films, K m²/W, through which hardly any heat passes."""
+
 FixedWall = InsulatedWall | WallAtTemperature | ConductingWall
 SlidingWall = FixedWall | TurningWall | SlidingHalfSpace
 
@@ -88,7 +92,7 @@ class WallCondition:
 def condition(
     wall: SlidingWall, solution: Solution, filling: Array, supply: float, temperature: float
 ) -> WallCondition:
-    """The condition of a wall on the grid of a film.
+    """The condition of a wall on the grid of a film; in gaps between films no heat passes it.
 
     Parameters
     ----------
@@ -101,23 +105,22 @@ def condition(
     InputError
         If a resistance is negative, or a half-space slides past a film without an inlet or does not slide.
     """
-    shape = solution.grid.shape
     match wall:
         case InsulatedWall():
-            return _uniform(shape, 0.0, 1.0, 0.0)
+            return _uniform(solution, 0.0, 1.0, 0.0)
         case WallAtTemperature():
-            return _uniform(shape, 1.0, 0.0, wall.temperature - supply)
+            return _uniform(solution, 1.0, 0.0, wall.temperature - supply)
         case TurningWall():
-            return _uniform(shape, 1.0, 0.0, temperature - supply)
+            return _uniform(solution, 1.0, 0.0, temperature - supply)
         case ConductingWall():
             if not 0 <= wall.resistance < np.inf:
                 raise InputError(f"wall.resistance: got {wall.resistance:g} K m²/W; it must be finite and >= 0")
-            return _uniform(shape, 1.0, wall.resistance, wall.surroundings - supply)
+            return _uniform(solution, 1.0, wall.resistance, wall.surroundings - supply)
     history = heating_of_half_space(wall, solution)
     return WallCondition(
         holds=1.0,
         resistance=np.diag(history)[:, None] * filling,
-        outside=np.full(shape, wall.temperature - supply),
+        outside=np.full(solution.grid.shape, wall.temperature - supply),
         history=np.tril(history, -1),
     )
 
@@ -152,10 +155,14 @@ def heating_of_half_space(wall: SlidingHalfSpace, solution: Solution) -> Array:
     return np.asarray(heating / np.sqrt(np.pi * wall.conductivity * wall.heat_capacity * speed))
 
 
-def _uniform(shape: tuple[int, int], holds: float, resistance: float, outside: float | Array) -> WallCondition:
+def _uniform(solution: Solution, holds: float, resistance: float, outside: float | Array) -> WallCondition:
+    shape = solution.grid.shape
+    values = np.full(shape, resistance)
+    for nodes in gaps(solution.problem.shape, solution.grid):
+        values[nodes[1:-1]] = NO_WALL
     return WallCondition(
         holds=holds,
-        resistance=np.full(shape, resistance),
-        outside=np.broadcast_to(np.asarray(outside, dtype=float), shape).copy(),
+        resistance=values,
+        outside=np.full(shape, outside),
         history=np.zeros((0, 0)),
     )

@@ -141,6 +141,10 @@ def dynamics(
         Mν² = k = (Kxx Byy + Kyy Bxx - Kxy Byx - Kyx Bxy)/(Bxx + Byy),
         ν² = ((Kxx - k)(Kyy - k) - Kxy Kyx)/det B.
 
+    If the lubricant has ``thermoviscosity``, ``density`` and ``heat_capacity``, each film has the one temperature at
+    which its heat is balanced, and K and B are those of motions at this temperature, which changes much slower than a
+    rotor vibrates; ``scene.isothermal()`` is the scene without temperature.
+
     Parameters
     ----------
     scene : a bearing whose shaft or pad moves freely; its eccentricity is ignored, and its speed gives the direction.
@@ -157,8 +161,9 @@ def dynamics(
     tuple of DynamicCurve
         One curve for each load. Its ``points`` have ``stiffness`` and ``damping``, arrays of N/m and N s/m whose rows
         are forces, and quantities by their names, ``point["whirl_ratio"]``, ``point["critical_mass"]``,
-        ``point["eccentricity"]``, and of walls with asperities ``point["contact_share"]``, with uncertainties from two
-        coarser grids, and from flow factors and contact pressures. Speeds without an equilibrium are in ``omitted``;
+        ``point["eccentricity"]``, with a temperature ``point["temperature"]`` and ``point["outlet_temperature"]``, °C,
+        and of walls with asperities ``point["contact_share"]``, with uncertainties from two coarser grids, and from
+        flow factors and contact pressures. Speeds without an equilibrium are in ``omitted``;
         ``onset`` is the rotational speed, rad/s, at which the rotor of a mass becomes unstable.
 
     Raises

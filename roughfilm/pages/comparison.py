@@ -124,9 +124,8 @@ def _kept(report: Report) -> dict[str, frozenset[str]]:
     return {model.name: frozenset(map(str, model.keeps - absent)) for model in _solved(report)}
 
 
-def _shown(report: Report, names: Sequence[str]) -> list[tuple[str, str]]:
-    """The quantities of the best result that stand for these names, each of the whole bearing, with their titles."""
-    known = report.results[report.best].quantities
+def _shown(report: Report, names: Sequence[str], known: Mapping[str, Quantity]) -> list[tuple[str, str]]:
+    """The known quantities that stand for these names, each of the whole bearing, with their titles."""
     variants = ([f"bearing_{name}", name, f"{name}_per_width"] for name in names)
     found = dict.fromkeys(next((one for one in three if one in known), "") for three in variants)
     return [(name, report.kind.reported.get(name, name)) for name in found if name]
@@ -153,9 +152,9 @@ def _of_model(report: Report, result: Result, name: str) -> Quantity | None:
 
 def _cards(report: Report, scales: Scales, first: str) -> list[tuple[str, str, str]]:
     """Value, uncertainty and title of the quantities at the top of the page; those near 0 are left out."""
-    cards = []
-    for name, title in _shown(report, report.view.cards):
-        one = report.results[report.best].quantities[name]
+    cards, known = [], report.results[report.best].quantities
+    for name, title in _shown(report, report.view.cards, known):
+        one = known[name]
         scale = scales(name, one.unit)
         if name != first and abs(one.value) > scale.negligible:
             value, _, bar = scale.of(one).partition(" ± ")
@@ -166,10 +165,10 @@ def _cards(report: Report, scales: Scales, first: str) -> list[tuple[str, str, s
 
 def _rows(report: Report, scales: Scales) -> list[tuple[str, list[tuple[str, str]]]]:
     """The rows of the table: the title with its unit, and value and uncertainty by every model; no row of zeros."""
-    rows = []
-    for name, title in _shown(report, report.view.rows):
-        unit = report.results[report.best].quantities[name].unit
-        scale = scales(name, unit)
+    rows, top = [], report.results[report.best]
+    known = {name: one for result in (*report.results.values(), top) for name, one in result.quantities.items()}
+    for name, title in _shown(report, report.view.rows, known):
+        scale = scales(name, known[name].unit)
         cells = []
         for result in report.results.values():
             one = _of_model(report, result, name)

@@ -25,6 +25,8 @@ COLUMNS = (
     ("power", "kW", "power_loss", 1e-3),
     ("side leakage", "ml/s", "side_leakage", 1e6),
     ("Sommerfeld number", "", "sommerfeld_number", 1.0),
+    ("temperature, film", "°C", "temperature", 1.0),
+    ("temperature, outlet", "°C", "outlet_temperature", 1.0),
 )
 """Title, unit, name and factor of each column of the table of the equilibrium."""
 
@@ -62,6 +64,8 @@ def write_page(scene: Bearing, entries: Mapping[str, Any], curves: Sequence[Dyna
         dimensionless=svg(figures.coefficients(scene, curves, dimensionless=True)) if shaft else None,
         places=svg(figures.places(scene, curves)) if shaft else None,
         stability=svg(figures.stability(scene, curves)) if shaft else None,
+        heated="temperature" in first.numbers,
+        temperatures=svg(figures.temperatures(scene, curves)) if "temperature" in first.numbers else None,
         rough=scene.roughness is not None,
         contact=scene.asperities is not None,
         pads=getattr(scene.geometry, "pivot", None) is not None,

@@ -10,6 +10,7 @@ import jinja2
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.writing.kinds import FIGURE, PAGE
 from roughfilm.figures.rendering import viewer
+from roughfilm.rom.lubricants.thermal.law import celsius
 from roughfilm.terminal.layout import VISIBLE
 from roughfilm.words.cost import seconds
 from roughfilm.words.numbers import share, span
@@ -41,6 +42,7 @@ def render(template: str | Path, path: Path, *, overwrite: bool = False, **entri
         number=_number,
         si=partial(_in_unit, unit="Pa"),
         micro=partial(_in_unit, unit="m"),
+        celsius=celsius,
         span=lambda ends: "–" if ends is None else span(*ends),
     )
     held = iter(("viewer",))

@@ -17,9 +17,9 @@ from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedState
 from roughfilm.rom.bearing.mixed.search.heated import with_temperature
+from roughfilm.rom.bearing.mixed.store import numbers_of
 from roughfilm.rom.bearing.mixed.stribeck import (
     LOAD_TOLERANCE,
-    TEMPERATURES,
     StribeckCurve,
     StribeckPoint,
     curve_search,
@@ -32,14 +32,17 @@ DRAWN_CONTACT_SHARE = 0.3
 """The first film drawn is the one whose asperities carry nearest to this fraction of the load."""
 
 COLUMNS = (
-    ("friction coefficient", "", "friction_coefficient", 1.0),
+    ("friction, coefficient", "", "friction_coefficient", 1.0),
     ("least film (mean gap)", "µm", "least_gap", 1e6),
-    ("carried by contact", "%", "contact_share", 100.0),
-    ("film pressure, largest", "MPa", "pressure_max", 1e-6),
-    ("contact pressure, largest", "MPa", "contact_pressure_max", 1e-6),
+    ("carried, by contact", "%", "contact_share", 100.0),
+    ("film, pressure, largest", "MPa", "pressure_max", 1e-6),
+    ("contact, pressure, largest", "MPa", "contact_pressure_max", 1e-6),
     ("cavitated", "%", "cavitated_fraction", 100.0),
     ("temperature, film", "°C", "temperature", 1.0),
     ("temperature, outlet", "°C", "outlet_temperature", 1.0),
+    ("spots, in contact, hotter by", "K", "flash_temperature", 1.0),
+    ("at least", "K", "flash_temperature_low", 1.0),
+    ("at most", "K", "flash_temperature_high", 1.0),
 )
 """Title, unit, name and factor of each column of the table of numbers."""
 
@@ -69,7 +72,7 @@ def write_page(
         for point in shown_points(middle, own_point(scene, middle))
     ]
     columns = [column for column in COLUMNS if asperities is not None or column[2] not in OF_CONTACT]
-    columns = [column for column in columns if heated or column[2] not in TEMPERATURES]
+    columns = [column for column in columns if column[2] in numbers_of(middle.points)]
     touching = None if asperities is None else asperities.touching
     render(
         "stribeck.html.j2",

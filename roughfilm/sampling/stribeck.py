@@ -24,6 +24,14 @@ def rough_bearing(scene: Scene) -> Bearing:
     return scene
 
 
+def _without_flash(scene: Bearing) -> Bearing:
+    """The bearing without the estimate of flash temperatures, which is that of the spots of one surface."""
+    if scene.asperities is None or scene.asperities.solid_heat is None:
+        return scene
+    asperities = scene.asperities.model_copy(update={"solid_heat": None, "counter_heat": None})
+    return scene.model_copy(update={"asperities": asperities})
+
+
 def curves_over_windows(
     scenes: Sequence[Bearing],
     places: Sequence[Path],
@@ -37,6 +45,8 @@ def curves_over_windows(
     progress: Progress,
 ) -> tuple[tuple[StribeckCurve, ...], Wall | None, int]:
     """The curves over all windows with their scatter, the wall that has all of them, and the number of known points.
+
+    Flash temperatures, of the spots of one surface, are left out.
 
     Parameters
     ----------
@@ -56,6 +66,7 @@ def curves_over_windows(
     ConvergenceError
         If a film does not converge.
     """
+    scenes = [_without_flash(scene) for scene in scenes]
     windows = for_each(
         window_curves,
         [(scene, place, speeds, loads, resolution) for scene, place in zip(scenes, places, strict=True)],

@@ -95,7 +95,7 @@ def _table(
         elif whole and (isinstance(value, dict) or (value is None and not (plain and key in _examples()["optional"]))):
             tables.append((key, given, whole, value))
         else:
-            yield from _line(key, {**plain[0], **given}, value, others or {})
+            yield from _line(key, {**plain[0], **given}, value, others or {}, places_of(path, node))
     for key, given, whole, value in tables:
         for way in [max(whole, key=lambda way: _fit(way, value))] if value is not None else whole:
             inner = (*path, key)
@@ -141,7 +141,7 @@ def _fit(way: Node, value: Node) -> tuple[bool, int]:
     return agrees, len(value.keys() & way["properties"].keys()) - len(value.keys() - way["properties"].keys()) * 100
 
 
-def _line(key: str, node: Node, value: object, others: Node) -> Iterator[str]:
+def _line(key: str, node: Node, value: object, others: Node, places: tuple[str, ...]) -> Iterator[str]:
     """The line of a key, as a comment if it has no value and may be left out, or its table is one."""
     notes = [node.get("description", "")]
     if "enum" in node and not all(str(one) in notes[0] for one in node["enum"]):
@@ -149,22 +149,37 @@ def _line(key: str, node: Node, value: object, others: Node) -> Iterator[str]:
     if value is None and "default" in node:
         notes.append("default")
     own = "const" in node or "default" in node
-    sample = sample_of(key, node) if own or key not in others else others[key]
+    sample = sample_of(key, node, places) if own or key not in others else others[key]
     shown = toml_value(sample if value is None else value)
     return _wrapped(f"{'# ' if value is None else ''}{key} = {shown}", "; ".join(filter(None, notes)))
 
 
-def sample_of(key: str, node: Node) -> object:
-    """A value for a key without one: its default, or one that makes sense."""
+def places_of(path: tuple[str, ...], node: Node) -> tuple[str, ...]:
+    """The names by which examples may be given for the keys of a table alone: its fixed values, and its own key."""
+    return (*(one["const"] for one in node["properties"].values() if "const" in one), *path[-1:])
+
+
+def sample_of(key: str, node: Node, places: tuple[str, ...] = ()) -> object:
+    """A value for a key without one: its default, or one that makes sense.
+
+    Parameters
+    ----------
+    key, node : the key, and what its schema says about it.
+    places : names of its table from :func:`places_of`; the example of the first of them counts.
+    """
     if "default" in node:
         return node["default"]
     if "const" in node:
         return node["const"]
     optional = _examples()["optional"]
+    for place in places:
+        if f"{place}.{key}" in optional:
+            return optional[f"{place}.{key}"]
     if node.get("type") == "array" and f"{key}[]" in optional:
         return optional[f"{key}[]"]
     if any("prefixItems" in one for one in node.get("prefixItems", ())):  # rows of quantities
-        return [[sample_of(cell[UNIT], cell) for cell in row["prefixItems"]] for row in node["prefixItems"]]
+        rows = enumerate(node["prefixItems"])
+        return [[optional[f"{cell[UNIT]}[]"][number] for cell in row["prefixItems"]] for number, row in rows]
     if key in optional:
         return optional[key]
     if "enum" in node:

@@ -37,6 +37,12 @@ class Grids:
 APPROACH = RADIUS * CLEARANCE_RATIO
 """Velocity of a shaft that moves straight at the bore, c ε' with ε' = 1/s, m/s."""
 
+TURNING = {"speed": f"{SPEED!r} m/s"}
+"""Entries of the motion of a shaft that turns."""
+
+APPROACHING = {"speed": "0 m/s", "approach": f"{APPROACH!r} m/s"}
+"""Entries of the motion of a shaft that moves straight at the bore."""
+
 USUAL = Grids(wide=160, close=320)
 THOROUGH = Grids(wide=320, close=640)
 
@@ -51,11 +57,12 @@ def method(grids: Grids) -> str:
 
 def journal(eccentricity: float, width_over_diameter: float, grids: Grids) -> Result:
     """The film of a full journal bearing that turns, full at the widest gap, with pressures of at least ambient."""
-    scene = read_scene(_entries(eccentricity, width_over_diameter, {"speed": f"{SPEED!r} m/s"}))
+    scene = read_scene(entries(eccentricity, width_over_diameter, TURNING))
     return find("bearing", "reynolds_incompressible").solve(scene, Request(resolution=grids.of(eccentricity)))
 
 
-def _entries(eccentricity: float, width_over_diameter: float, motion: dict[str, str]) -> dict[str, Any]:
+def entries(eccentricity: float, width_over_diameter: float, motion: dict[str, str]) -> dict[str, Any]:
+    """The scene of a full journal bearing with a motion, such as ``TURNING``."""
     return {
         "name": "journal",
         "kind": "bearing",
@@ -77,8 +84,8 @@ def squeezed_journal(eccentricity: float, width_over_diameter: float, cells: int
     A negative eccentricity is that of a shaft that comes from the far side: it leaves its narrowest place.
     """
     away = eccentricity < 0
-    motion = {"speed": "0 m/s", "approach": f"{-APPROACH if away else APPROACH!r} m/s"}
-    scene = read_scene(_entries(abs(eccentricity), width_over_diameter, motion))
+    motion = APPROACHING | {"approach": f"{-APPROACH!r} m/s"} if away else APPROACHING
+    scene = read_scene(entries(abs(eccentricity), width_over_diameter, motion))
     model = find("bearing", "reynolds_incompressible")
     if away:
         model = replace(model, compute=partial(solve, film=_unrolled_from_the_narrowest, ruptures=True))

@@ -1,6 +1,7 @@
 """Stiffness, damping and stability of bearings in words."""
 
 import math
+from collections.abc import Sequence
 
 from roughfilm.contact.foundation.rounding import with_error
 from roughfilm.contact.foundation.units import ZERO_CELSIUS
@@ -64,6 +65,8 @@ def answer_of(scene: Bearing, curve: DynamicCurve) -> str:
     at = f"at {digits(scale.factor * point.speed)} {scale.unit} under {curve.pressure / 1e6:.4g} MPa"
     if point.numbers.get("contact_share"):
         at += f", of which asperities carry {number_of(point, 'contact_share', 100.0)} %"
+    if "temperature" in point.numbers:
+        at += f", film at {number_of(point, 'temperature')} °C"
     if "whirl_ratio" not in point.numbers:
         return f"stiffness {number_of(point, 'stiffness', 1e-6)} N/µm, damping {number_of(point, 'damping')} N·s/m {at}"
     mass = critical_mass(point)
@@ -76,16 +79,18 @@ def answer_of(scene: Bearing, curve: DynamicCurve) -> str:
     return "; ".join(filter(None, [words, onset(scene, curve)]))
 
 
-def heat_warnings(scene: Bearing) -> list[str]:
-    """A warning that heating is left out, if the lubricant of a scene has a temperature."""
-    liquid = scene.lubricant
-    if liquid.thermoviscosity is None or liquid.temperature is None:
+def heat_warnings(scene: Bearing, curves: Sequence[DynamicCurve]) -> list[str]:
+    """Warnings about temperatures out of the range of the law of the viscosity, or about heating that is left out."""
+    lubricant = scene.lubricant
+    points = [point for curve in curves for point in curve.points]
+    found = [point.numbers["temperature"] + ZERO_CELSIUS for point in points if "temperature" in point.numbers]
+    if found:
+        return lubricant.temperature_warnings(min(found), max(found))
+    if lubricant.thermoviscosity is None or not lubricant.lacking:
         return []
-    supplied = f"{liquid.temperature - ZERO_CELSIUS:.4g} degC"
     return [
-        f"lubricant.temperature: the film has the temperature of the supplied lubricant, {supplied}; stiffness and "
-        "damping leave heating out; give the effective temperature of the film, which roughfilm solve --model "
-        "heat_balance computes, as lubricant.temperature"
+        f"lubricant.{lubricant.lacking[0]}: missing, so that all films have the temperature of the supplied lubricant; "
+        "add it for the heat of the film, or name an oil"
     ]
 
 

@@ -11,17 +11,28 @@ from roughfilm.words.scales import scale_for
 ROUNDING = 1e-7
 """Numbers below this, in the units of the tables, are written as 0."""
 
+NEGLIGIBLE = 1e-7
+"""Numbers below this part of the value with all effects are written as 0."""
+
 MAX_CHANGE = 10.0
 """Change over the whole up to which it is given in per cent; a whole near zero is no measure."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Shown:
-    """A quantity of the tables: its title, its unit there, and the factor from SI units."""
+    """A quantity of the tables.
+
+    Attributes
+    ----------
+    title, unit : its title and its unit there.
+    factor : factor from the SI unit.
+    negligible : magnitude in the SI unit below which a number is written as 0.
+    """
 
     title: str
     unit: str
     factor: float = 1.0
+    negligible: float = 0.0
 
 
 SHOWN: Mapping[str, Shown] = {
@@ -31,7 +42,7 @@ SHOWN: Mapping[str, Shown] = {
     "friction": Shown(title="friction", unit="N"),
     "friction_per_width": Shown(title="friction", unit="N/m"),
     "friction_coefficient": Shown(title="friction coefficient", unit="10⁻³", factor=1e3),
-    "inlet_flow_per_width": Shown(title="inlet flow", unit="mm²/s", factor=1e6),
+    "inlet_flow_per_width": Shown(title="inlet flow per width", unit="mm²/s", factor=1e6),
     "side_leakage": Shown(title="side leakage", unit="ml/min", factor=60e6),
     "effective_temperature": Shown(title="temperature", unit="°C"),
     "contact_share": Shown(title="carried by contact", unit="%", factor=100),
@@ -50,7 +61,7 @@ def shown_quantities(study: EffectStudy, names: Sequence[str]) -> dict[str, Show
 
 
 def _in_its_unit(name: str, full: Amount) -> Shown:
-    how = SHOWN[name]
+    how = replace(SHOWN[name], negligible=NEGLIGIBLE * abs(full.value))
     if name not in FORCES:
         return how
     scale = scale_for(how.unit, abs(full.value))
@@ -61,7 +72,7 @@ def cell(amount: Amount | None, how: Shown, *, sign: bool = False) -> str:
     """A number with its uncertainty in the unit of its table; with its sign where it is added to another."""
     if amount is None:
         return "–"
-    if max(abs(amount.value), amount.uncertainty) * how.factor < ROUNDING:
+    if max(abs(amount.value), amount.uncertainty) < max(ROUNDING / how.factor, how.negligible):
         return "0"
     text = with_error(how.factor * amount.value, how.factor * amount.uncertainty)
     zero = not text.partition(" ")[0].strip("-0.")

@@ -32,6 +32,7 @@ def rows_of(quantities: Mapping[str, Quantity], titles: Mapping[str, str]) -> It
 
 
 def headline(quantities: Mapping[str, Quantity]) -> str:
-    """The least film and the peak pressure in one phrase."""
-    film, pressure = (" ".join(shown(quantities[name])) for name in ("film_min", "pressure_max"))
-    return f"least film {film}, peak pressure {pressure}"
+    """The least film, the peak pressure and the highest temperature, if there is one, in one phrase."""
+    titles = {"film_min": "least film", "pressure_max": "peak pressure", "temperature_max": "highest temperature"}
+    known = {title: quantities[name] for name, title in titles.items() if name in quantities}
+    return ", ".join(f"{title} {' '.join(shown(one))}" for title, one in known.items())

@@ -31,7 +31,7 @@ PERCENT = (
 MICROMETRES = (1e-8, 1e-3)
 """Lengths that are shown in µm, m."""
 
-PLACES = ("x", "y", "position", "film_min_x", "film_min_y")
+PLACES = ("x", "y", "position", "film_min_x", "film_min_y", "temperature_max_x", "temperature_max_y")
 """Lengths that are positions; each has a unit of its own."""
 
 

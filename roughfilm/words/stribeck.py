@@ -4,6 +4,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from roughfilm.rom.bearing.asperity_contact import FLASH
+from roughfilm.rom.bearing.flash import FlashTemperature, flash_warnings
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.words.average import rounded
@@ -44,11 +46,12 @@ def own_point(scene: Bearing, curve: StribeckCurve) -> StribeckPoint | None:
 
 
 def number_of(point: StribeckPoint, name: str, factor: float = 1.0, *, lines: bool = False) -> str:
-    """A number of a point times a factor, with its uncertainty, which may be unknown.
+    """A number of a point times a factor, with its uncertainty, which may be unknown; flash temperatures have none.
 
     The scatter of a mean over windows, which may be unknown too, stands behind it; with ``lines`` on the next line.
     """
-    text = with_error(factor * getattr(point, name), factor * point.uncertainty.get(name, math.inf))
+    uncertainty = None if name in FLASH else factor * point.uncertainty.get(name, math.inf)
+    text = with_error(factor * getattr(point, name), uncertainty)
     if point.scatter:
         scatter = scatter_of(point, name, factor)
         text += f"\n± {scatter}" if lines else f" ± {scatter} (windows)"
@@ -65,6 +68,26 @@ def lift_off_scatter(curve: StribeckCurve, scale: SpeedScale) -> str:
     """The scatter of the lift-off speed over windows, without its unit; "?" if it is unknown."""
     scatter = curve.lift_off.scatter
     return rounded(None if scatter is None else scale.factor * scatter, scale.factor * curve.lift_off.speed)
+
+
+def hottest_spots(points: Sequence[StribeckPoint]) -> tuple[StribeckPoint, FlashTemperature] | None:
+    """The point with the greatest flash temperature, and that; None of points without an estimate of it."""
+    some = [(point, flash) for point in points if (flash := point.flash) is not None]
+    return max(some, key=lambda one: one[1].mean, default=None)
+
+
+def flash_words(curve: StribeckCurve) -> str:
+    """The greatest flash temperature of a curve, K above the walls, with its range; "" without an estimate."""
+    found = hottest_spots(curve.points)
+    return "" if found is None else f"{found[1].mean:.3g} ({found[1].low:.3g} to {found[1].high:.3g})"
+
+
+def flash_warnings_of(scene: Bearing, points: Sequence[StribeckPoint]) -> list[str]:
+    """Warnings about flash temperatures out of range, at the hottest spots and at the largest contact pressure."""
+    some = [point for point in points if point.flash_temperature]
+    chosen = [hottest_spots(some), hottest_spots(sorted(some, key=lambda point: point.contact_pressure_max)[-1:])]
+    found = [flash_warnings(scene, one[0].contact_pressure_max, one[1]) for one in chosen if one is not None]
+    return list(dict.fromkeys(warning for warnings in found for warning in warnings))
 
 
 def at_own_speed(scene: Bearing, curves: Sequence[StribeckCurve]) -> list[str]:

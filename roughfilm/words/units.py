@@ -59,6 +59,7 @@ SCALES: Mapping[str, Scales] = {
     "kg/(m*s)": _prefixed("g/(h·m)", -9, -6, -3, 0, 3, size=1e-3 * _HOUR),
     "rad": ((1e-6, "µrad"), (1e-3, "mrad"), (math.pi / 180, "°")),
     "deg": ((1.0, "°"),),
+    "degC": ((1.0, "°C"),),
 }
 """Sizes of the units in which a quantity is shown, in its SI unit, with their names; the smallest first."""
 
@@ -67,6 +68,9 @@ ROUND_OFF = 1e-12
 
 UNRESOLVED = 1e-8
 """Uncertainty over the largest magnitude of the same unit below which a value within it is round-off."""
+
+UNRESOLVED_PART = 0.05
+"""Magnitude over its uncertainty below which a value is rounded to 0."""
 
 BOUND = 1e-6
 """The bound of an uncertainty that is round-off, over the unit."""
@@ -147,12 +151,14 @@ def in_engineering_unit(quantity: Quantity) -> tuple[str, str, str]:
     ('2.0272', '0.0003', 'MPa')
     >>> in_engineering_unit(Quantity(value=5e-6, unit="m", uncertainty=0.0))
     ('5', 'exact', 'µm')
+    >>> in_engineering_unit(Quantity(value=2e-9, unit="1", uncertainty=0.02))
+    ('0.00', '0.02', '')
     """
     value, uncertainty = quantity.value, quantity.uncertainty
     known = uncertainty is not None and math.isfinite(uncertainty)
     if not math.isfinite(value):
         return str(value), UNKNOWN, scale_of(quantity.unit, 0.0)[1]
-    size, unit = scale_of(quantity.unit, abs(value) or (uncertainty if known and uncertainty else 0.0))
+    size, unit = scale_of(quantity.unit, _size(abs(value), uncertainty if known and uncertainty else 0.0))
     value /= size
     if not known or not uncertainty:
         return _plain(value), EXACT if known else UNKNOWN, unit
@@ -163,6 +169,11 @@ def in_engineering_unit(quantity: Quantity) -> tuple[str, str, str]:
     bound = f"<{10.0**least:.{max(-least, 0)}f}" if last < least and uncertainty < 10.0**least else ""
     last = max(last, least)
     return _rounded(value, last), bound or _rounded(uncertainty, last), unit
+
+
+def _size(size: float, uncertainty: float) -> float:
+    """The size that chooses the unit: the uncertainty where the value is small against it and is rounded to 0."""
+    return uncertainty if size < UNRESOLVED_PART * uncertainty else size
 
 
 def _plain(value: float) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 from roughfilm.contact.foundation.ranges import RANGES
 from roughfilm.contact.foundation.toml import toml_value
 from roughfilm.rom.ladder.kind import kind_of_name
-from roughfilm.scenes.annotated import annotated_scene, forms_of, sample_of, variants
+from roughfilm.scenes.annotated import annotated_scene, forms_of, places_of, sample_of, variants
 from roughfilm.scenes.json_schema import UNIT, schema_of
 
 HEAD = "| key | unit | default | range | meaning | example |\n|---|---|---|---|---|---|"
@@ -81,7 +81,8 @@ def _tables(path: str, node: Mapping[str, Any], definitions: Mapping[str, Any]) 
         items = [item for form in forms if "items" in form for item in forms_of(form["items"], definitions)]
         inner += [(name, given, form) for form in (*forms, *items) if "properties" in form]
         place = f"{path}.{name}" if path else name
-        keys.append(_key(name, given, forms, place=place, required=name in node.get("required", ())))
+        key = _key(name, given, forms, place=place, required=name in node.get("required", ()), node=node)
+        keys.append(key)
     yield path and f"[{path}]", node.get("description", ""), keys
     for name, _, form in inner:
         chosen = [f'{key} = "{one["const"]}"' for key, one in form["properties"].items() if "const" in one]
@@ -91,10 +92,19 @@ def _tables(path: str, node: Mapping[str, Any], definitions: Mapping[str, Any]) 
             yield place + (f" with {', '.join(chosen)}" if own and chosen else ""), meaning, entries
 
 
-def _key(name: str, given: Mapping[str, Any], forms: list[Mapping[str, Any]], *, place: str, required: bool) -> Key:
+def _key(
+    name: str,
+    given: Mapping[str, Any],
+    forms: list[Mapping[str, Any]],
+    *,
+    place: str,
+    required: bool,
+    node: Mapping[str, Any],
+) -> Key:
     plain = [form for form in forms if "properties" not in form]
     one = {**(plain[0] if plain else {}), **given}
     whole = len(plain) < len(forms)
+    table = places_of(tuple(place.split("."))[:-1], node)
     several = len(forms) - len(plain) > 1
     meaning = f"one of the {len(forms) - len(plain)} forms below" if several else forms[0].get("description", "")
     default = "required" if required else f"`{toml_value(one['default'])}`" if "default" in one else "none"
@@ -105,7 +115,7 @@ def _key(name: str, given: Mapping[str, Any], forms: list[Mapping[str, Any]], *,
         default=default,
         range="a table" if whole and not plain else _range(one) + (", or a table" if whole else ""),
         meaning=_sentence(one.get("description", meaning)),
-        example=f"[{place}]" if whole and not plain else toml_value(sample_of(name, one)),
+        example=f"[{place}]" if whole and not plain else toml_value(sample_of(name, one, table)),
     )
 
 

@@ -13,7 +13,7 @@ from roughfilm.rom.bearing.free.equilibrium import holding
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.free.solve import placed
 from roughfilm.rom.bearing.geometry.journal import Shaft
-from roughfilm.rom.bearing.mixed.quantities import mixed_quantities
+from roughfilm.rom.bearing.mixed.quantities import contact_quantities
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.evaluation.grids import grid_uncertainty
@@ -46,11 +46,15 @@ CONTACT: Mapping[str, str] = {
 }
 """The same of walls whose asperities may touch, as those of the model ``mixed``."""
 
+TEMPERATURES: Mapping[str, str] = {"temperature": "degC", "outlet_temperature": "degC"}
+"""The same of a bearing whose lubricant has a temperature: that of the film, and of the lubricant that leaves."""
+
 UNITS: Mapping[str, str] = {
     **{f"stiffness{entry}": "N/m" for entries in ENTRIES.values() for entry in entries},
     **{f"damping{entry}": "N*s/m" for entries in ENTRIES.values() for entry in entries},
     **STATIC,
     **CONTACT,
+    **TEMPERATURES,
     "whirl_ratio": "1",
     "critical_mass": "kg",
 }
@@ -62,7 +66,8 @@ class DynamicPoint:
     """The equilibrium of a bearing at a speed and a load.
 
     Film and asperities exert the force δF = -K δq - B δq' on a wall that moves by δq from the equilibrium: a shaft
-    along x and y, a pad towards the other wall.
+    along x and y, a pad towards the other wall. Where the lubricant has a temperature, the film has the one at which
+    its heat is balanced, and keeps it during the motion δq.
 
     Attributes
     ----------
@@ -134,8 +139,7 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
         **dict(zip(named("stiffness", len(stiffness)), map(float, stiffness.flat), strict=True)),
         **dict(zip(named("damping", len(damping)), map(float, damping.flat), strict=True)),
     }
-    quantities = bearing_quantities if scene.asperities is None else mixed_quantities
-    static = quantities(placed(film, instant), film.solution(instant))
+    static = static_quantities(film, instant)
     power = "power_loss" if scene.wide else "power_loss_per_width"
     numbers |= {name: static[name].value for name in (*STATIC, *CONTACT) if name in static and name != power}
     whirl = None
@@ -144,6 +148,12 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
     return GridPoint(
         cells=math.prod(count for count in film.whole.grid.shape if count > 1) ** 0.5, numbers=numbers, whirl=whirl
     )
+
+
+def static_quantities(film: FreeFilm, instant: Instant) -> dict[str, Quantity]:
+    """The quantities of an equilibrium, as those of a solved bearing."""
+    quantities = bearing_quantities if film.scene.asperities is None else contact_quantities
+    return quantities(placed(film, instant), film.solution(instant))
 
 
 def named(matrix: str, rows: int) -> list[str]:

@@ -5,22 +5,19 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-import numpy as np
 from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.corners import infinite_flows
-from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, grid_point, rotation_of
+from roughfilm.rom.bearing.dynamics.balance import Equilibrium, balanced_equilibrium, point_of
+from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, rotation_of
 from roughfilm.rom.bearing.dynamics.wall_errors import wall_errors
 from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
-from roughfilm.rom.bearing.free.equilibrium import equilibrium, refined
-from roughfilm.rom.bearing.free.film import FreeFilm, free_film
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.march.rough_walls import Walls, walls_of
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
-from roughfilm.rom.cavitation.motion.coupled import Instant
 from roughfilm.rom.ladder.model import Progress, silent
 
 RESOLUTION, MIN_CELLS, MAX_CELLS = 128, 32, 512
@@ -31,12 +28,6 @@ COARSENING = (4, 2, 1)
 
 CELLS_PER_LOBE = 4
 """Smallest number of cells along a lobe of a coarser grid: with fewer its film is not resolved at all."""
-
-TOLERANCE = 1e-9
-"""Residual at which a film is solved."""
-
-MAX_FILM_RATIO = 3.0
-"""Largest ratio of the least films of a start and of the equilibrium that Newton's method finds from it."""
 
 ONSET_TOLERANCE = 1e-4
 """Relative error of the speed of onset at which its search stops."""
@@ -106,6 +97,11 @@ def dynamics(
     the uncertainty is estimated; that of flow factors and contact pressures adds to it. Points without an equilibrium
     are left out.
 
+    If the lubricant of the scene has a temperature (``thermoviscosity``, ``density`` and ``heat_capacity``), the film
+    of each point, on each grid, has the one at which its heat is balanced
+    (:func:`roughfilm.rom.bearing.thermal.exchange.temperatures`). Stiffness and damping are those of motions at this
+    temperature: walls and lubricant warm much slower than a rotor vibrates.
+
     Parameters
     ----------
     scene : the bearing; its eccentricity has no effect, and of its speed only the sign, of its load only the angle.
@@ -129,12 +125,12 @@ def dynamics(
     done = {(point.pressure, point.speed): point for point in known}
     walls, curves = walls_of(scene), []
     for number, pressure in enumerate(sorted(pressures)):
-        started: dict[int, Instant] = {}
+        started: dict[int, Equilibrium] = {}
         points: list[DynamicPoint] = []
         omitted: list[Omitted] = []
         refused: InputError | ConvergenceError | None = None
 
-        def at(speed: float, pressure: float = pressure, started: dict[int, Instant] = started) -> DynamicPoint:
+        def at(speed: float, pressure: float = pressure, started: dict[int, Equilibrium] = started) -> DynamicPoint:
             operation = at_operation(scene, speed, pressure)
             return dynamic_point(operation, walls, pressure, resolution, frequency_ratio, started)
 
@@ -175,18 +171,19 @@ def dynamic_point(
     pressure: float,
     resolution: int,
     frequency_ratio: float,
-    started: dict[int, Instant],
+    started: dict[int, Equilibrium],
 ) -> DynamicPoint:
     """The point of a bearing at its speed and load.
 
     Parameters
     ----------
     walls : its walls, smooth or rough.
-    started : a film near the equilibrium on each grid, by the coarsening of the grid; replaced by those of the point.
+    started : an equilibrium near that of the point on each grid, by the coarsening of the grid; replaced by those of
+        the point.
     """
     cpu = time.process_time()
     solved = list(_equilibria(scene, walls, resolution, started))
-    points = [grid_point(film, instant, frequency_ratio) for film, instant in reversed(solved)]
+    points = [point_of(one, frequency_ratio) for one in reversed(solved)]
     if points[0].numbers.get("stiffness", 1.0) <= 0:
         raise InputError(
             "load: the equilibrium of the pad is not stable; move the pivot, or take another load or speed"
@@ -197,9 +194,9 @@ def dynamic_point(
             "load: the walls touch between the nodes of the grid; lower the load, or raise the speed or the viscosity"
         )
     points = [point for point in points if point.numbers["film_min"] > closest]
-    speed, (film, instant) = abs(scene.motion.speed), solved[-1]
+    speed, film, instant = abs(scene.motion.speed), solved[-1].film, solved[-1].instant
     rotation = rotation_of(scene, speed)
-    of_walls = wall_errors(walls, *solved[max(len(solved) - 2, 0)], frequency_ratio, tolerance=TOLERANCE)
+    of_walls = wall_errors(scene, walls, solved[max(len(solved) - 2, 0)], frequency_ratio)
     shaft = ~film.wall.turns
     net_force = film.solved.force(instant.state.pressure) + film.solved.contact_at(instant.place).force + film.load
     load = math.hypot(*film.load[shaft])
@@ -218,42 +215,29 @@ def dynamic_point(
 
 
 def _equilibria(
-    scene: Bearing, walls: Walls, resolution: int, started: dict[int, Instant]
-) -> Iterator[tuple[FreeFilm, Instant]]:
+    scene: Bearing, walls: Walls, resolution: int, started: dict[int, Equilibrium]
+) -> Iterator[Equilibrium]:
     """The equilibrium on each grid, from coarse to fine; coarse ones may be missing.
 
     A coarse grid may lack an equilibrium that the others have; two of them are taken to show that there is none.
     """
-    coarse: tuple[FreeFilm, Instant] | None = None
+    coarse: Equilibrium | None = None
     refused = 0
     least = CELLS_PER_LOBE * scene.geometry.lobes if isinstance(scene.geometry, Lobes) else 0
     for coarsening in COARSENING:
         if coarsening != COARSENING[-1] and resolution // coarsening < least:
             continue
         cells = resolution // coarsening, resolution // coarsening // 2
-        film = free_film(scene, cells, film=walls.film, contact=walls.contact, closest=walls.closest)
         start = started.pop(coarsening, None)
-        if start is None and coarse is not None:
-            start = refined(*coarse, film)
         try:
-            with np.errstate(all="ignore"):  # pressures that are not finite end the iteration with an error
-                instant = equilibrium(film, start, tolerance=TOLERANCE)
-                if start is not None and _far(start, instant):
-                    instant = equilibrium(film, None, tolerance=TOLERANCE)
+            coarse = balanced_equilibrium(scene, walls, cells, start=start, coarse=coarse)
         except (InputError, ConvergenceError) as error:
             refused += isinstance(error, InputError)
             if coarsening == COARSENING[-1] or refused > 1:
                 raise
             continue
-        started[coarsening] = instant
-        coarse = film, instant
-        yield film, instant
-
-
-def _far(start: Instant, found: Instant) -> bool:
-    """Whether the least film is so far from that of the start that it may be an equilibrium that is not stable."""
-    ratio = float(found.faces.thickness.min() / start.faces.thickness.min())
-    return not 1 / MAX_FILM_RATIO < ratio < MAX_FILM_RATIO
+        started[coarsening] = coarse
+        yield coarse
 
 
 def onset_of(
@@ -283,7 +267,7 @@ def onset_of(
     before, after = points[above - 1], points[above]
     if not math.isfinite(excess[above]):
         return Onset(mass=mass, rotation=after.rotation, uncertainty=after.rotation - before.rotation)
-    started: dict[int, Instant] = {}
+    started: dict[int, Equilibrium] = {}
     tried: dict[float, DynamicPoint] = {before.speed: before, after.speed: after}
 
     def at(speed: float) -> float:

@@ -95,7 +95,7 @@ def heating_words(scene: Bearing) -> str | None:
         return "friction does not change the viscosity"
     words = (
         f"friction heats the film by about {math.log1p(heating) / coefficient:.2g} K while it passes, if the "
-        f"walls take no heat, and its viscosity falls by {heating / (1 + heating):.0%}"
+        f"walls take no heat, and its viscosity falls by {100 * heating / (1 + heating):.0f} %"
     )
     if "thermal_peclet_number" not in numbers:
         return words
@@ -114,8 +114,8 @@ def _sides(numbers: Numbers) -> str:
 
 def _texture(numbers: Numbers) -> str:
     resolved = (
-        f"pockets over {numbers['texture_density']:.0%} of the area, {numbers['pocket_depth_ratio']:.2g} times h deep, "
-        "are resolved as a thin film"
+        f"pockets over {100 * numbers['texture_density']:.0f} % of the area, "
+        f"{numbers['pocket_depth_ratio']:.2g} times h deep, are resolved as a thin film"
     )
     if "reduced_reynolds_number" not in numbers:
         return resolved

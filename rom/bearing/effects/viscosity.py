@@ -69,12 +69,12 @@ class CoarseFilms:
 
     def left_out(self, more: Model[Bearing], less: Model[Bearing]) -> list[str]:
         """The effects of a model that another one lacks, in words; heating includes what its temperature varies by."""
-        lacking = self.effects(more) - self.effects(less)
-        if Effect.HEATING in lacking:
-            lacking -= {Effect.TEMPERATURE_FIELD, Effect.TEMPERATURE_ACROSS}
-        if {Effect.TEMPERATURE_FIELD, Effect.TEMPERATURE_ACROSS} <= lacking:
-            return ["the temperature over the film and across it"]
-        return [words for effect, words in EFFECTS.items() if effect in lacking]
+        lacking, field = self.effects(more) - self.effects(less), {Effect.TEMPERATURE_FIELD, Effect.TEMPERATURE_ACROSS}
+        whole = Effect.HEATING not in lacking and field <= lacking
+        if whole or Effect.HEATING in lacking:
+            lacking -= field
+        named = [words for effect, words in EFFECTS.items() if effect in lacking]
+        return [*named, "the temperature over the film and across it"] if whole else named
 
     def change(self, quantity: str, more: Model[Bearing], less: Model[Bearing]) -> float | None:
         """A quantity by one model minus that by another one, over its size by the first; None if one lacks it."""

@@ -261,6 +261,24 @@ def _next(
     return min(max(at.separation(root), low), high)
 
 
+def expected(at: FilmsAtSpeed[FilmT], separation: float, film_load: float, pressure: float) -> float:
+    """The separation, m, that is expected to carry a pressure, from the load of the film at one without solving it.
+
+    Parameters
+    ----------
+    at : films at the speed, with the exponent of their load.
+    separation : a separation, m.
+    film_load : load of the film there without its contact load, N.
+    pressure : the load over the nominal area, Pa.
+    """
+    film = at.film
+    if not film_load > 0:
+        return separation
+    known = FilmsAtSpeed(film=film, speed=at.speed, loads={separation: film_load}, steepness=at.steepness)
+    ends = film.closest, film.widest
+    return _next(known, pressure * film.area, *ends, separation, bracketed=(False, False), count=0)
+
+
 def robustly_balanced(
     at: FilmsAtSpeed[FilmT],
     pressure: float,

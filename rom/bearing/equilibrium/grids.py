@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, SeparableBearing, robustly_balanced
+from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, SeparableBearing, expected, robustly_balanced
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.grid import grid
 from roughfilm.rom.cavitation.interpolation import carried
@@ -64,8 +64,22 @@ class BearingState(Protocol):
 StateT = TypeVar("StateT", bound=BearingState)
 
 
-Search = Callable[[SeparableBearing[StateT], StateT | None], StateT]
-"""search(films, near), the film among some that carries the load, from one near it on the same grid."""
+class Search(Protocol[StateT]):
+    """The search for the film that carries the load on a grid."""
+
+    def __call__(
+        self, among: SeparableBearing[StateT], near: StateT | None, *, error: float = 0.0, growth: float = 1.0
+    ) -> StateT:
+        """Search for the film among some that carries the load.
+
+        Parameters
+        ----------
+        among : the films.
+        near : a film near it on the same grid; None for the start from the grids before.
+        error : relative error of the load at which the search stops, if it is larger than its tolerance.
+        growth : expected load of the film at the separation of ``near`` over that of ``near``.
+        """
+        ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,6 +155,9 @@ def under_load(
         def search(
             among: SeparableBearing[StateT],
             near: StateT | None,
+            *,
+            error: float = 0.0,
+            growth: float = 1.0,
             guess: float | None = guess,
             start: State | None = start,
             searched: list[FilmsAtSpeed[StateT]] = searched,
@@ -150,8 +167,10 @@ def under_load(
                 at.steepness = before[-1].steepness
             searched.append(at)
             if near is not None:
-                guess, start = near.scene.geometry.thinnest, near.solution.state
-            return robustly_balanced(at, pressure, tolerance=LOAD_TOLERANCE, guess=guess, start=start)
+                separation, start = near.scene.geometry.thinnest, near.solution.state
+                film_load = growth * (near.load - among.contact_load(separation))
+                guess = expected(at, separation, film_load, pressure)
+            return robustly_balanced(at, pressure, tolerance=max(LOAD_TOLERANCE, error), guess=guess, start=start)
 
         try:
             state = search(films, None) if heated is None else heated(films, search)

@@ -24,6 +24,9 @@ SAMPLES = 721
 JOINT = 1e-11
 """Distance of these angles from the ends of the lobe, rad."""
 
+MAX_LOBES = 24
+"""Largest number of lobes."""
+
 DOWN = -math.pi / 2
 """The direction of a load that points downwards, rad."""
 
@@ -57,7 +60,7 @@ class Lobes(Shaft, MovingWall):
     """
 
     shape: Literal["lobes"]
-    lobes: Annotated[int, Field(strict=True, ge=1, le=24)] = 1
+    lobes: Annotated[int, Field(strict=True, ge=1, le=MAX_LOBES)] = 1
     arc: Arc | None = None
     first: Angle = DOWN
     preload: Ratio = 0.0

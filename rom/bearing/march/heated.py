@@ -17,6 +17,7 @@ from roughfilm.rom.bearing.thermal.exchange import coldest, exchange_of, tempera
 from roughfilm.rom.cavitation.motion.coupled import Instant
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.motion.march import Moving
+from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 
 FIRST_TOLERANCE = 1e-3
@@ -63,12 +64,26 @@ class HeatedMarch:
         return replace(free, whole=self.film(free.whole, temperature), solved=self.film(free.solved, temperature))
 
     def balanced(self, time: float, instant: Instant, velocity: Array, temperature: float, *, turned: bool) -> float:
-        """T_eq, K, of a film whose lubricant has a temperature, K."""
+        """The temperature T_eq, K, that the heat of a film brings about.
+
+        Parameters
+        ----------
+        time : time, s.
+        instant : position of the wall at this time.
+        velocity : velocity of the wall along its coordinates, m/s.
+        temperature : temperature of the lubricant of the film, K.
+        turned : whether the speed is negative.
+
+        Raises
+        ------
+        InputError
+            If no lubricant takes the heat away, and there is no time constant.
+        """
         seen = replace(self.observer, film=self.observer.film.reversed) if turned else self.observer
         scene, film = self.duty.scene, self.whole(temperature, turned=turned)
         moved = replace(film.whole.problem, speed=abs(self.duty.speed(time)))
         film = replace(film, whole=replace(film.whole, problem=moved))
-        solution = film.solution(instant)
+        solution = _with_edges(film.solution(instant), film, velocity)
         flows, wide = boundary_flows(solution), scene.wide
         per, unit = ("_per_width", "m^2/s") if wide else ("", "m^3/s")
         amounts = {f"inlet_flow{per}": flows.inlet, f"outlet_flow{per}": flows.outlet}
@@ -85,9 +100,10 @@ class HeatedMarch:
         if not (exchange.flows or exchange.conductance) and exchange.power > 0:
             if self.time_constant:
                 return temperature
+            other = "a start away from the middle, body.start.eccentricity" if self.duty.lobes else "[[supply]]"
             raise InputError(
                 f"heat.time_constant: is missing, and at the time {time:.6g} s no lubricant flows through the film and "
-                "takes its heat away; give it, or a start away from the middle, body.start.eccentricity"
+                f"takes its heat away; give it, or {other}"
             )
         return temperatures(exchange, self.liquid, temperature).effective
 
@@ -127,3 +143,15 @@ class HeatedMarch:
             lowest = coldest(self.duty.scene, supplied)
             balanced(equilibrium, given, coldest=lowest, tolerance=FIRST_TOLERANCE)
         return last[0]
+
+
+def _with_edges(solution: Solution, film: FreeFilm, velocity: Array) -> Solution:
+    """The solution whose control volumes take up θ ∂h/∂t, so that flows through its edges contain that of the edges.
+
+    Parameters
+    ----------
+    velocity : velocities of the coordinates of the wall.
+    """
+    rate = film.whole.gap_rate(solution.faces.thickness) * (film.whole.at_nodes @ velocity)
+    storage = solution.grid.areas * rate
+    return replace(solution, network=replace(solution.network, storage=storage, stored=np.zeros_like(storage)))

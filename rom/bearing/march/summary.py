@@ -169,19 +169,19 @@ def _window(duty: Duty, series: Series) -> tuple[float, float, str, bool | None]
         if duty.turn is None:
             return first, end, f"the last part moves by less than {100 * AT_REST:g} % of the film", None
         return first, end, "at rest in its equilibrium", True
-    if duty.lobes:
-        return first, end, *_whirl(duty, series, sizes)
+    if duty.lobes and duty.turn is not None:
+        return first, end, *_whirl(series, sizes, duty.turn)
     growing = sizes[0] > sizes[1]
     return first, end, f"a motion that {'grows' if growing else 'decays'}", False
 
 
-def _whirl(duty: Duty, series: Series, sizes: list[float]) -> tuple[str, bool]:
-    """How the shaft whirls without anything that makes it do so, and whether its orbit repeats."""
+def _whirl(series: Series, sizes: list[float], turn: float) -> tuple[str, bool]:
+    """How the shaft whirls without anything that drives it, and whether its orbit repeats; a turn takes ``turn``, s."""
     x, y = series["eccentricity_x"], series["eccentricity_y"]
     inside = series.time >= series.time[-1] - LAST_PART * (series.time[-1] - series.time[0])
     along, up, time = x[inside] - x[inside].mean(), y[inside] - y[inside].mean(), series.time[inside]
     turned = float(np.ptp(np.unwrap(np.arctan2(up, along)))) / float(np.ptp(time))
-    ratio = turned * (duty.turn or math.inf) / (2 * math.pi)
+    ratio = turned * turn / (2 * math.pi)
     words = f"at {ratio:.3g} of the rotational speed"
     if abs(sizes[0] - sizes[1]) <= REPEATED * sizes[0]:
         return f"a whirl of constant size, a limit cycle, {words}", True

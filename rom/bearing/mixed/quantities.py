@@ -37,14 +37,26 @@ _OF_FRICTION = tuple(f"{name}{per}" for name in ("friction", "power_loss", "torq
 
 
 def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
+    """The quantities of :func:`contact_quantities`, and the flash temperature of the asperities.
+
+    ``flash_temperature``, of scenes with ``asperities.solid_heat``, estimates how much hotter the spots in contact are
+    at the largest contact pressure, between ``flash_temperature_low`` and ``flash_temperature_high``
+    (:func:`roughfilm.rom.bearing.flash.rise_of_spots`).
+    """
+    quantities = contact_quantities(scene, solution)
+    flash = flash_temperature(scene, quantities["contact_pressure_max"].value, scene.boundary_friction)
+    if flash is None:
+        return quantities
+    return quantities | {name: Quantity(value=value, unit="K") for name, value in flash.named.items()}
+
+
+def contact_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
     """The quantities of :func:`roughfilm.rom.bearing.quantities.bearing_quantities` and those of the asperities.
 
     ``load`` and ``friction`` are those of film and asperities together; in a journal bearing loads add up as vectors.
     ``contact_load`` is the load of the asperities, ``film_load`` the rest, ``contact_share`` the contact load over the
     load, ``contact_pressure_max`` an average over the roughness, ``contact_area`` a fraction of the nominal area, and
-    ``least_gap`` the mean gap at the narrowest place. ``flash_temperature``, of scenes with ``asperities.solid_heat``,
-    estimates how much hotter the spots in contact are at the largest contact pressure, between
-    ``flash_temperature_low`` and ``flash_temperature_high`` (:func:`roughfilm.rom.bearing.flash.rise_of_spots`).
+    ``least_gap`` the mean gap at the narrowest place.
     """
     assert scene.asperities is not None
     contact = _contact(scene, solution)
@@ -64,9 +76,6 @@ def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
         values |= {"contact_load": (pressed, "N"), "film_load": (load - pressed, "N")}
     if "friction_coefficient" in quantities:
         values["contact_share"] = (pressed / load, "1")
-    flash = flash_temperature(scene, contact.pressure_max, scene.boundary_friction)
-    if flash is not None:
-        values |= dict(zip(FLASH, ((flash.mean, "K"), (flash.low, "K"), (flash.high, "K")), strict=True))
     return quantities | {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
 
 

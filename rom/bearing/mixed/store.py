@@ -11,6 +11,7 @@ from roughfilm.contact.foundation.checked_hdf5 import open_if_of, write_checked,
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.reading.hdf5_content import Numbers
+from roughfilm.rom.bearing.asperity_contact import FLASH
 from roughfilm.rom.bearing.mixed.stribeck import TEMPERATURES, StribeckCurve, StribeckPoint
 from roughfilm.rom.studies.table import table_beginning
 
@@ -33,11 +34,15 @@ UNITS = {
     "cpu_s": "s",
     "temperature": "degC",
     "outlet_temperature": "degC",
+    **dict.fromkeys(FLASH, "K"),
 }
 """Units of the numbers of a point; all others are dimensionless."""
 
 NUMBERS = tuple(entry.name for entry in fields(StribeckPoint) if entry.type is float)
 """The numbers that every point has."""
+
+OF_SOME = (*TEMPERATURES, *FLASH)
+"""The numbers of points of some scenes alone."""
 
 SCATTER = ("scatter", "window_low", "window_high")
 """Groups of the numbers of points over several windows."""
@@ -46,9 +51,9 @@ ROWS = ("rows",)
 
 
 def numbers_of(points: Sequence[StribeckPoint]) -> tuple[str, ...]:
-    """The names of the numbers of points, with their temperatures if they have them."""
-    heated = bool(points) and all(point.temperature is not None for point in points)
-    return (*NUMBERS, *TEMPERATURES) if heated else NUMBERS
+    """The names of the numbers of points, with the temperatures that all of them have."""
+    some = [name for name in OF_SOME if points and all(getattr(point, name) is not None for point in points)]
+    return (*NUMBERS, *some)
 
 
 def save_points(
@@ -101,8 +106,7 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
     with open_if_of(inputs, path, MARK, SCHEMA, kind=KIND, remedy=REMEDY) as content:
         if content is None:
             return ()
-        heated = tuple(name for name in TEMPERATURES if name in content.names("points"))
-        numbers = (*NUMBERS, *heated)
+        numbers = (*NUMBERS, *(name for name in OF_SOME if name in content.names("points")))
         columns = content.take({f"points/{name}": Numbers(shape=ROWS) for name in numbers})
         known = [f"uncertainty/{name}" for name in content.names("uncertainty")]
         uncertainties = content.take(

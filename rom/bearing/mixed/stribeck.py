@@ -12,6 +12,7 @@ from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
+from roughfilm.rom.bearing.flash import FlashTemperature, flash_temperature
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
@@ -91,6 +92,8 @@ class StribeckPoint:
     cavitated_fraction : cavitated fraction of the film.
     temperature : effective temperature of the film by its heat balance, °C; None where the scene has no temperature.
     outlet_temperature : temperature of the lubricant that leaves, °C; None where the scene has no temperature.
+    flash_temperature, flash_temperature_low, flash_temperature_high : estimate of how much hotter the spots in contact
+        are than the walls at the largest contact pressure, and its range, K; None without ``asperities.solid_heat``.
     balance : relative error of the load.
     residual : residual of the film: the largest net flow into a node over the largest flow through a face.
     cpu_s : CPU time, s.
@@ -119,9 +122,18 @@ class StribeckPoint:
     cpu_s: float
     temperature: float | None = None
     outlet_temperature: float | None = None
+    flash_temperature: float | None = None
+    flash_temperature_low: float | None = None
+    flash_temperature_high: float | None = None
     uncertainty: Mapping[str, float] = field(default_factory=dict)
     scatter: Mapping[str, float] = field(default_factory=dict)
     window_interval: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+
+    @property
+    def flash(self) -> FlashTemperature | None:
+        """The flash temperature with its range; None where it was not estimated."""
+        mean, low, high = self.flash_temperature, self.flash_temperature_low, self.flash_temperature_high
+        return None if mean is None or low is None or high is None else FlashTemperature(mean=mean, low=low, high=high)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -171,7 +183,8 @@ def stribeck(
     Without asperities the film alone carries the load, the contact share is 0, and the curve leaves out the speeds at
     which no film carries it. If the lubricant of the scene has a temperature (``thermoviscosity``, ``density`` and
     ``heat_capacity``), each film has the one at which its heat is balanced, with the friction of the asperities in it
-    (:func:`roughfilm.rom.bearing.thermal.exchange.temperatures`).
+    (:func:`roughfilm.rom.bearing.thermal.exchange.temperatures`). With ``asperities.solid_heat`` each point has an
+    estimate of the flash temperature of its asperities (:func:`roughfilm.rom.bearing.flash.rise_of_spots`).
 
     Parameters
     ----------
@@ -219,7 +232,7 @@ def stribeck(
                         refuse_overload(partial(_solved, search, pressure), ordered)
                     refused[pressure] = error
                     continue
-                point = stribeck_point(state, search, pressure)
+                point = _with_flash(stribeck_point(state, search, pressure), state.scene)
             if speed in estimated and not point.uncertainty:
                 point = replace(point, uncertainty=_uncertainty(point, search, coarse))
             if point is not before:
@@ -337,6 +350,19 @@ def stribeck_point(state: MixedState, search: Search, pressure: float) -> Stribe
         cpu_s=0.0,
         temperature=None if heated is None else heated.effective - ZERO_CELSIUS,
         outlet_temperature=None if heated is None else heated.outlet - ZERO_CELSIUS,
+    )
+
+
+def _with_flash(point: StribeckPoint, scene: Bearing) -> StribeckPoint:
+    """The point with the flash temperature of its asperities, if the scene at this speed has solids that conduct."""
+    flash = flash_temperature(scene, point.contact_pressure_max, scene.boundary_friction)
+    if flash is None:
+        return point
+    return replace(
+        point,
+        flash_temperature=flash.mean,
+        flash_temperature_low=flash.low,
+        flash_temperature_high=flash.high,
     )
 
 

@@ -4,8 +4,9 @@ from dataclasses import replace
 
 from roughfilm.rom.bearing.film import averaging_applies
 from roughfilm.rom.bearing.geometry.lobes import Lobes
+from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.tables import HalfSpace, Heat
+from roughfilm.rom.bearing.thermal.tables import Adiabatic, HalfSpace, Heat
 from roughfilm.rom.ladder.model import Applicability
 
 WALLS = ("fixed_wall", "sliding_wall")
@@ -42,8 +43,25 @@ def heat_balance_applies(scene: Bearing) -> Applicability:
     return _without(has_temperature(scene, "one temperature for the film"), scene, WALLS)
 
 
+def _stays(scene: Bearing) -> bool:
+    """Whether lubricant stays at a place: where walls that approach without sliding displace it to all sides alike."""
+    if scene.motion.speed != 0 or scene.motion.approach <= 0 or scene.supply:
+        return False
+    ends = scene.ends
+    return len({ends.outlet, ends.outlet if ends.inlet is None else ends.inlet, *(ends.sides or ())}) == 1
+
+
+UNSTEADY = Applicability(
+    applies=False,
+    reason="walls that take no heat and only approach each other have no steady temperature over the film, whose "
+    "lubricant stays where it flows to all sides; take heat_balance or roughfilm march, or a wall that takes heat",
+)
+
+
 def adiabatic_applies(scene: Bearing) -> Applicability:
     """Whether the model of walls that take no heat applies, with what takes heat in the scene and is left out."""
+    if not scene.lubricant.lacking and _stays(scene):
+        return UNSTEADY
     return _without(has_temperature(scene, "the mean temperature across the film"), scene, WALLS + SURROUNDINGS)
 
 
@@ -52,18 +70,21 @@ def across_applies(scene: Bearing) -> Applicability:
     fits, heat = has_temperature(scene, "the temperature from wall to wall"), scene.heat or Heat()
     if not fits.applies:
         return fits
+    if _stays(scene) and isinstance(heat.fixed_wall, Adiabatic) and isinstance(heat.sliding_wall, Adiabatic):
+        return UNSTEADY
     if scene.lubricant.conductivity is None:
         return Applicability(
             applies=False, reason="the scene has no temperature across: lubricant.conductivity missing"
         )
-    lobes = isinstance(scene.geometry, Lobes) and not scene.geometry.single
-    if heat.carried_over < 1 and (lobes or scene.supply):
+    if heat.carried_over < 1 and scene.supply:
         why = (
-            f"heat.carried_over is {heat.carried_over:g} behind {'gaps' if lobes else 'supplies'}, where this model "
-            "carries all hot lubricant over; give 1, or take adiabatic"
+            f"heat.carried_over is {heat.carried_over:g} behind supplies, where this model carries all hot lubricant "
+            "over; give 1, or take adiabatic"
         )
         return Applicability(applies=False, reason=why)
-    if isinstance(heat.sliding_wall, HalfSpace) and (scene.motion.speed == 0 or scene.problem().shape.joined[0]):
+    ring = isinstance(scene.geometry, Ring) and scene.geometry.endless
+    endless = ring or (isinstance(scene.geometry, Lobes) and not scene.geometry.single)
+    if isinstance(heat.sliding_wall, HalfSpace) and (scene.motion.speed == 0 or endless):
         why = "heat.sliding_wall: a half space needs a film with an inlet past which it slides; take turning"
         return Applicability(applies=False, reason=why)
     return _without(fits, scene, SURROUNDINGS)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.contact.foundation.units import ZERO_CELSIUS
+from roughfilm.rom.lubricants.thermal.law import celsius
 
 MAX_STEP = 20.0
 """Largest step of the temperature before the root is enclosed, K."""
@@ -24,7 +24,10 @@ SLOW = 0.5
 MAX_FILMS = 100
 """Largest number of films in one search."""
 
-REMEDY = "lower the load or the speed, supply more or colder lubricant, or give the heat that the bearing gives off"
+REMEDY = (
+    "lower the speed, the load or the viscosity, supply more or colder lubricant, or give heat.heat_transfer and "
+    "heat.area, by which the bearing gives off heat"
+)
 """Remedy of a thermal runaway."""
 
 
@@ -105,13 +108,13 @@ def balanced(
 
 
 def _unbalanced(at: float, excess: float, why: str) -> str:
-    here, there = at - ZERO_CELSIUS, at + excess - ZERO_CELSIUS
+    here, there = celsius(at), celsius(at + excess)
     if excess > 0:
         return (
-            f"heat_balance: thermal runaway: at {here:.4g} degC friction heats the film to {there:.4g} degC{why}; "
-            f"{REMEDY}"
+            f"heat_balance: thermal runaway: friction heats the film further at every temperature, from {here} to "
+            f"{there}{why}; {REMEDY}"
         )
     return (
-        f"heat_balance: at {here:.4g} degC the film cools to {there:.4g} degC{why}; raise heat.surroundings or the "
-        "temperature of the supply"
+        f"heat_balance: at {here} the film cools to {there}{why}; raise heat.surroundings or the temperature of the "
+        "supply"
     )

@@ -1,4 +1,4 @@
-"""Checks of what a scene says about heat, against its lubricant."""
+"""Checks of the heat in a scene, against its lubricant."""
 
 from collections.abc import Mapping
 
@@ -25,11 +25,11 @@ def check_heat(lubricant: BearingLubricant, heat: Heat | None, entering: Mapping
     if place is None:
         return
     if lubricant.lacking:
-        missing = " and ".join(f"lubricant.{key}" for key in lubricant.lacking)
-        one = len(lubricant.lacking) == 1
+        *others, last = (f"lubricant.{key}" for key in lubricant.lacking)
+        missing = f"{', '.join(others)} and {last}" if others else last
         raise ValueError(
-            f"{place}: got one, but the scene has no temperature without {missing}; give {'it' if one else 'them'}, "
-            "name an oil, or leave it out"
+            f"{place}: got {'a table' if place == 'heat' else 'a temperature'}, but the scene has no temperature "
+            f"without {missing}; give {'them' if others else 'it'}, name an oil, or leave {place} out"
         )
     supplied = lubricant.temperature
     assert supplied is not None

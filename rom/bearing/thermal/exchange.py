@@ -13,8 +13,10 @@ from roughfilm.rom.bearing.quantities import boundary_flows
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.cavitation.evaluation.flows import flow_across, flow_along
+from roughfilm.rom.cavitation.grid import gaps
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.temperature.dissipation import passed_on
 
 SMALL_FLOW = 1e-12
 """New lubricant over all lubricant that enters a film below which it carries no heat."""
@@ -93,7 +95,7 @@ def temperatures(exchange: Exchange, liquid: Liquid, film: float) -> Temperature
     Raises
     ------
     InputError
-        If nothing takes the heat away.
+        If neither flows nor the surroundings take the heat away.
     ConvergenceError
         If the heat belongs to no temperature.
 
@@ -152,8 +154,8 @@ def exchange_of(
     leaves, Σ p Q. Lubricant that a restrictor throttles enters with the heat that this releases. New lubricant enters
     through the inlet, open sides and supplies, each where it flows in; what walls displace that approach each other has
     come in at the supply temperature. Recirculated is, of a ring or a shaft, ``heat.carried_over`` times the
-    flow out at the end, as far as the inlet takes it; of films with gaps between them the same at each gap, with the
-    flow out of the film before it and that into the one behind it; of a film without an end the least flow along
+    flow out at the end, as far as the inlet takes it; of films with gaps between them the same in each row of nodes of
+    each gap (:func:`roughfilm.rom.temperature.dissipation.passed_on`); of a film without an end the least flow along
     anywhere, and behind supplies ``heat.carried_over`` of it. Of a single pad nothing recirculates.
 
     Parameters
@@ -186,7 +188,7 @@ def exchange_of(
         for amount, supply in zip(supplied, scene.supply, strict=True)
     ]
     new.append((max(displaced, 0.0), supply_temperature))
-    carried, gaps = 0.0, boundary_flows(solution).gaps if solution.problem.shape.idle else ()
+    carried, between = 0.0, boundary_flows(solution).gaps
     if ("inlet_flow_per_width" if wide else "inlet_flow") not in quantities:
         carried = max(float(flow_along(solution).sum(axis=1).min()), 0.0)
         if scene.supply:
@@ -198,15 +200,15 @@ def exchange_of(
     else:
         at_inlet = scene.boundary.inlet.temperature
         fresh = supply_temperature if at_inlet is None else at_inlet
-        for leaving, entering in gaps or ((outlet, inlet),):
-            again = 0.0
+        for leaving, entering in between or ((np.array([outlet]), np.array([inlet])),):
+            again, into = 0.0, float(np.maximum(entering, 0.0).sum())
             if isinstance(scene.geometry, Ring | Shaft):
-                again = min(heat.carried_over * max(leaving, 0.0), max(entering, 0.0))
-            new.append((max(entering, 0.0) - again, fresh))
-            new.append((max(-leaving, 0.0), fresh if gaps else supply_temperature))
+                again = float(passed_on(leaving, entering, heat.carried_over).sum())
+            new.append((into - again, fresh))
+            new.append((float(np.maximum(-leaving, 0.0).sum()), fresh if between else supply_temperature))
             carried += again
     sides, at_end = scene.boundary.sides, scene.ends.outlet + lubricant.cavitation_pressure
-    pumped = scene.inlet_pressure * inlet - (scene.inlet_pressure if gaps else at_end) * outlet
+    pumped = scene.inlet_pressure * inlet - (scene.inlet_pressure if between else at_end) * outlet
     pumped -= sides.low * low + sides.high * high
     for number, (amount, supply) in enumerate(zip(supplied, scene.supply, strict=True), start=1):
         pressure = quantities[f"supply_{number}_pressure"].value if supply.pressure is None else supply.pressure
@@ -225,8 +227,10 @@ def _drawn_through_sides(solution: Solution) -> tuple[float, float]:
     """The flows that enter through the sides at the lowest and the highest y, where they enter, m³/s."""
     if solution.problem.ends.sides is None:
         return 0.0, 0.0
-    across, shape = flow_across(solution), solution.problem.shape
-    inside = ~shape.is_idle(solution.grid.x) if shape.idle else np.ones(across.shape[0], dtype=bool)
+    across = flow_across(solution)
+    inside = np.ones(across.shape[0], dtype=bool)
+    for nodes in gaps(solution.problem.shape, solution.grid):
+        inside[nodes] = False
     if not solution.network.periodic[0]:
         inside[[0, -1]] = False
     return float(np.maximum(across[inside, 0], 0.0).sum()), float(np.maximum(-across[inside, -2], 0.0).sum())

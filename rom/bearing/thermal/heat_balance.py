@@ -169,7 +169,8 @@ def solve_heat_balance(solver: Model[Bearing], scene: Bearing, request: CheckedR
     Raises
     ------
     InputError
-        If no film carries the load, nothing takes the heat away, or friction heats the film without end.
+        If no film carries the load, neither flows nor the surroundings take the heat away, or friction heats the
+        film without end.
     ConvergenceError
         If the film, its load or its temperature does not converge.
     """
@@ -251,7 +252,7 @@ def balanced_film(
     Raises
     ------
     InputError
-        If nothing takes the heat away, or friction heats the film without end.
+        If neither flows nor the surroundings take the heat away, or friction heats the film without end.
     ConvergenceError
         If a film or its temperature does not converge.
     """

@@ -58,8 +58,8 @@ class Conducting(Part):
             raise ValueError(f"{missing}: is missing beside {given}; give both, or leave both out")
         if self.thickness is None and self.heat_transfer is None:
             raise ValueError(
-                "is a conducting wall without a resistance; give thickness and conductivity, heat_transfer, or all of "
-                "them"
+                "got a conducting wall without a thermal resistance; give thickness and conductivity, heat_transfer, "
+                "or all of them"
             )
         return self
 
@@ -86,7 +86,9 @@ class HalfSpace(Part):
 
     Attributes
     ----------
-    conductivity, density, heat_capacity : k, W/(m K), ρ, kg/m³, and c, J/(kg K), of the wall.
+    conductivity : thermal conductivity k of the wall, W/(m K).
+    density : density ρ of the wall, kg/m³.
+    heat_capacity : specific heat capacity c of the wall, J/(kg K).
     temperature : temperature at which the wall comes in, K; by default that of the supplied lubricant.
     """
 

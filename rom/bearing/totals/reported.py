@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.geometry.lobes import MAX_LOBES
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.supply.tables import MAX_SUPPLIES
 
@@ -19,7 +20,7 @@ REPORTED: Mapping[str, str] = {
     "temperature_mean": "mean temperature of the film",
     "effective_temperature": "effective temperature of the film",
     "inlet_temperature": "temperature at the inlet",
-    "outlet_temperature": "temperature of what leaves",
+    "outlet_temperature": "temperature of the outflow",
     "shaft_temperature": "temperature of the shaft",
     "heat_generated": "heat generated",
     "bearing_heat_generated": "heat generated, whole bearing",
@@ -96,6 +97,7 @@ REPORTED: Mapping[str, str] = {
     "film_min_y": "place of the least film across",
     "temperature_max_x": "place of the highest temperature along",
     "temperature_max_y": "place of the highest temperature across",
+    **{f"tilt_{number}": f"tilt of pad {number}" for number in range(1, MAX_LOBES + 1)},
     "cavitated_fraction": "cavitated fraction",
     "film_start": "film begins at x/L",
     "rupture": "film ruptures at x/L",

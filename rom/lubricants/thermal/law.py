@@ -4,7 +4,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Self
+
+from pydantic import model_validator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, Part
@@ -53,7 +55,23 @@ class Supplied:
 
 
 class TemperatureLaw(Part):
-    """A law of the viscosity over the temperature T, K, at cavitation pressure."""
+    """A law of the viscosity over the temperature T, K, at cavitation pressure.
+
+    Each law has the keys ``valid_from`` and ``valid_to``, temperatures between which it is valid, K; outside of them a
+    result has a warning.
+    """
+
+    def narrowed(self, low: float, high: float) -> tuple[float, float]:
+        """The range of a law, K, with the given ends in the place of its own."""
+        first, last = (getattr(self, key) for key in ("valid_from", "valid_to"))
+        return low if first is None else first, high if last is None else last
+
+    @model_validator(mode="after")
+    def _has_a_range(self) -> Self:
+        low, high = self.narrowed(0.0, math.inf)
+        if low >= high:
+            raise ValueError(f"valid_to: got {celsius(high)}; it must be above valid_from, {celsius(low)}")
+        return self
 
     def refuse_below(self, limit: float, temperature: Array) -> None:
         """Raise InputError if a temperature, K, is at or below the limit at which the law has no viscosity."""

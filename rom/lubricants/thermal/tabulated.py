@@ -26,6 +26,10 @@ def rows_of_file(columns: Mapping[str, str], header: str) -> Callable[[Any], Any
     ----------
     columns : names of both columns and their SI units.
     header : example of a header of the file, for messages.
+
+    Returns
+    -------
+    a function of the entry; it raises ValueError if the file cannot be read.
     """
 
     def rows(entries: Any) -> Any:
@@ -48,6 +52,7 @@ class TabulatedViscosity(AbsoluteLaw):
     Attributes
     ----------
     table : rows of temperature and viscosity, such as ["40 degC", "28 mPa*s"], or the name of a CSV file.
+    valid_from, valid_to : temperatures between which the law is valid, K; by default those of the table.
 
     Examples
     --------
@@ -65,18 +70,17 @@ class TabulatedViscosity(AbsoluteLaw):
             rows_of_file({"temperature": "K", "viscosity": "Pa*s"}, "temperature (degC), viscosity (mPa*s)")
         ),
     ]
+    valid_from: Temperature | None = None
+    valid_to: Temperature | None = None
 
     @model_validator(mode="after")
     def _falls(self) -> Self:
-        try:
-            check_points(self.table)
-        except ValueError as error:
-            raise ValueError(f"table: {error}") from None
+        check_points("table", self.table, "Pa s")
         return self
 
     def valid(self) -> tuple[float, float]:
-        """The first and the last temperature of the table, K."""
-        return self.table[0][0], self.table[-1][0]
+        """The lowest and the highest valid temperature, K: the given ones, or the first and the last of the table."""
+        return self.narrowed(self.table[0][0], self.table[-1][0])
 
     @cached_property
     def _curves(self) -> tuple[Any, Any]:
@@ -128,7 +132,10 @@ class HeatCapacity(Part):
     @model_validator(mode="after")
     def _one_of_two(self) -> Self:
         if (self.constant is None) == (self.table is None):
-            raise ValueError('give a number, such as "2000 J/(kg*K)", or a table over temperature')
+            got = "neither" if self.constant is None else "both"
+            raise ValueError(
+                f'got {got} of constant and table; give a number, such as "2000 J/(kg*K)", or a table over temperature'
+            )
         check_rising(self.table or ())
         return self
 

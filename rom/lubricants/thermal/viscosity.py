@@ -1,12 +1,14 @@
 """Laws of the viscosity over temperature with few constants: exponential, Vogel's and Roelands'."""
 
 import math
+import re
+from collections.abc import Sequence
 from functools import cached_property
 from itertools import pairwise
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
-from pydantic import BeforeValidator, model_validator
+from pydantic import AfterValidator, BeforeValidator, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, PositiveNumber
@@ -21,7 +23,28 @@ from roughfilm.rom.lubricants.thermal.law import (
 )
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY
 
-TemperatureCoefficient = Annotated[float, InUnit("K^-1", any_sign=True)]
+MAX_COEFFICIENT = 1.0
+"""Largest size of the coefficient of the exponential law, 1/K."""
+
+
+def _small(coefficient: float) -> float:
+    if abs(coefficient) > MAX_COEFFICIENT:
+        raise ValueError(
+            f"got {coefficient:g} 1/K; it must be at most {MAX_COEFFICIENT:g} 1/K in size, of oils it is 0.02 to "
+            "0.06 1/K; check the unit"
+        )
+    return coefficient
+
+
+def _without_zero(difference: Any) -> Any:
+    """The entry of a difference of temperatures; ValueError for one in degrees whose zero is not absolute."""
+    if isinstance(difference, str) and re.search(r"(deg|°)\s*[CF]", difference):
+        raise ValueError(f"got {difference!r:.60}, a temperature in degrees; it is a difference, write it in K")
+    return difference
+
+
+TemperatureCoefficient = Annotated[float, InUnit("K^-1", any_sign=True), AfterValidator(_small)]
+Difference = Annotated[float, InUnit("K"), BeforeValidator(_without_zero)]
 Viscosity = Annotated[float, InUnit("Pa*s")]
 
 
@@ -52,7 +75,8 @@ class ExponentialViscosity(AnchoredLaw):
 
     Attributes
     ----------
-    temperature_coefficient : coefficient β, 1/K.
+    temperature_coefficient : coefficient β, 1/K, at most 1 in size.
+    valid_from, valid_to : temperatures between which the law is valid, K; by default 30 K to both sides of T_s.
 
     Examples
     --------
@@ -64,10 +88,12 @@ class ExponentialViscosity(AnchoredLaw):
 
     law: Literal["exponential"]
     temperature_coefficient: TemperatureCoefficient
+    valid_from: Temperature | None = None
+    valid_to: Temperature | None = None
 
     def valid(self, supplied: Supplied) -> tuple[float, float]:
         """The lowest and the highest valid temperature, K."""
-        return supplied.temperature - EXPONENTIAL_SPAN, supplied.temperature + EXPONENTIAL_SPAN
+        return self.narrowed(supplied.temperature - EXPONENTIAL_SPAN, supplied.temperature + EXPONENTIAL_SPAN)
 
     def viscosity(self, temperature: Array, supplied: Supplied) -> tuple[Array, Array]:
         """The viscosity η, Pa s, and dη/dT; shape of ``temperature``, K."""
@@ -84,6 +110,7 @@ class RoelandsTemperature(AnchoredLaw):
     Attributes
     ----------
     index : index S, about 1.2 to 1.3 for mineral oils.
+    valid_from, valid_to : temperatures between which the law is valid, K; by default all above 138 K.
 
     Examples
     --------
@@ -95,10 +122,12 @@ class RoelandsTemperature(AnchoredLaw):
 
     law: Literal["roelands"]
     index: PositiveNumber
+    valid_from: Temperature | None = None
+    valid_to: Temperature | None = None
 
     def valid(self, supplied: Supplied) -> tuple[float, float]:  # noqa: ARG002
         """The lowest and the highest valid temperature, K."""
-        return ROELANDS_TEMPERATURE, math.inf
+        return self.narrowed(ROELANDS_TEMPERATURE, math.inf)
 
     def viscosity(self, temperature: Array, supplied: Supplied) -> tuple[Array, Array]:
         """The viscosity η, Pa s, and dη/dT; shape of ``temperature``, K; InputError at 138 K and below."""
@@ -118,9 +147,12 @@ class Vogel(AbsoluteLaw):
 
     Attributes
     ----------
-    a, b, c : constants: a viscosity, Pa s, and two temperatures, K.
+    a : constant, a viscosity, Pa s.
+    b : constant, a difference of temperatures, K.
+    c : constant, the temperature at and below which the law has no viscosity, K.
     points : three rows of temperature and viscosity, in place of the constants.
-    valid_from, valid_to : temperatures between which the constants are valid, K; outside a result has a warning.
+    valid_from, valid_to : temperatures between which the law is valid, K; by default those of the points, or all above
+        c.
 
     Examples
     --------
@@ -134,7 +166,7 @@ class Vogel(AbsoluteLaw):
 
     law: Literal["vogel"]
     a: Viscosity | None = None
-    b: Temperature | None = None
+    b: Difference | None = None
     c: Temperature | None = None
     points: tuple[Point, Point, Point] | None = None
     valid_from: Temperature | None = None
@@ -148,11 +180,11 @@ class Vogel(AbsoluteLaw):
         if self.points is not None and given:
             raise ValueError(f"points: got them and {' and '.join(given)}; give the constants or points")
         if self.points is not None:
-            check_points(self.points)
+            check_points("points", self.points, "Pa s")
             self._can_be_fitted(self.points)
-        low, high = self.valid()
-        if low >= high:
-            raise ValueError(f"valid_to: got {celsius(high)}; it must be above {celsius(low)}, where the range begins")
+        c = self.constants[2]
+        if self.valid_to is not None and self.valid_to <= c:
+            raise ValueError(f"valid_to: got {celsius(self.valid_to)}; it must be above c, {celsius(c)}")
         return self
 
     @staticmethod
@@ -181,8 +213,8 @@ class Vogel(AbsoluteLaw):
 
     def valid(self) -> tuple[float, float]:
         """The lowest and the highest valid temperature, K: the given ones, or those of the points."""
-        low, high = (self.constants[2], math.inf) if self.points is None else (self.points[0][0], self.points[-1][0])
-        return low if self.valid_from is None else self.valid_from, high if self.valid_to is None else self.valid_to
+        ends = (self.constants[2], math.inf) if self.points is None else (self.points[0][0], self.points[-1][0])
+        return self.narrowed(*ends)
 
     def viscosity(self, temperature: Array) -> tuple[Array, Array]:
         """The viscosity η, Pa s, and dη/dT; shape of ``temperature``, K; InputError near c and below."""
@@ -193,11 +225,17 @@ class Vogel(AbsoluteLaw):
         return viscosity, -viscosity * b / above**2
 
 
-def check_points(points: tuple[Point, ...]) -> None:
-    """Raise ValueError unless the temperature of points rises and their viscosity falls."""
+def check_points(key: str, points: Sequence[tuple[float, float]], unit: str) -> None:
+    """Raise ValueError unless the temperature of points, K, rises and their viscosity falls.
+
+    Parameters
+    ----------
+    key, unit : key of the points, and SI unit of their viscosities, for the message.
+    points : temperatures, K, and viscosities.
+    """
     for number, (before, after) in enumerate(pairwise(points), 2):
         if not (after[0] > before[0] and after[1] < before[1]):
             raise ValueError(
-                f"got {celsius(after[0])}, {after[1]:.4g} as point {number} after {celsius(before[0])}, "
-                f"{before[1]:.4g}; the temperature must rise and the viscosity fall"
+                f"{key}: got {celsius(after[0])}, {after[1]:.4g} {unit} at row {number} after {celsius(before[0])}, "
+                f"{before[1]:.4g} {unit}; the temperature must rise and the viscosity fall"
             )

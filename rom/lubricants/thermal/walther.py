@@ -62,6 +62,7 @@ class Walther(AbsoluteLaw):
     Attributes
     ----------
     points : two rows of temperature and kinematic viscosity.
+    valid_from, valid_to : temperatures between which the law is valid, K; by default by both ranges above.
 
     Examples
     --------
@@ -74,10 +75,12 @@ class Walther(AbsoluteLaw):
     kinematic: ClassVar[bool] = True
     law: Literal["walther"]
     points: tuple[KinematicPoint, KinematicPoint]
+    valid_from: Temperature | None = None
+    valid_to: Temperature | None = None
 
     @model_validator(mode="after")
     def _falls(self) -> Self:
-        check_points(self.points)
+        check_points("points", self.points, "m²/s")
         lowest = min(viscosity for _, viscosity in self.points) / MM2
         if lowest < WALTHER_VISCOSITIES[0]:
             raise ValueError(
@@ -105,10 +108,10 @@ class Walther(AbsoluteLaw):
         return self._temperature(math.exp(LOG_LIMIT))
 
     def valid(self) -> tuple[float, float]:
-        """The lowest and the highest valid temperature, K, by both ranges of ASTM D341."""
+        """The lowest and the highest valid temperature, K, given or by both ranges of ASTM D341."""
         thinnest, thickest = (one + float(_excess(np.array(one))[0]) for one in WALTHER_VISCOSITIES)
         low, high = WALTHER_TEMPERATURES
-        return max(low, self._temperature(thickest)), min(high, self._temperature(thinnest))
+        return self.narrowed(max(low, self._temperature(thickest)), min(high, self._temperature(thinnest)))
 
     def viscosity(self, temperature: Array) -> tuple[Array, Array]:
         """The kinematic viscosity ν, m²/s, and dν/dT; shape of ``temperature``, K; InputError if it is too low."""
@@ -131,6 +134,7 @@ class IsoGrade(AbsoluteLaw):
     ----------
     grade : viscosity grade, such as 32 of ISO VG 32.
     viscosity_index : viscosity index, 95 by default, that of a solvent-refined mineral oil.
+    valid_from, valid_to : temperatures between which the law is valid, K; by default those of Walther's law.
 
     Examples
     --------
@@ -143,6 +147,8 @@ class IsoGrade(AbsoluteLaw):
     law: Literal["iso_vg"]
     grade: int
     viscosity_index: Annotated[float, BeforeValidator(plain_number)] = 95.0
+    valid_from: Temperature | None = None
+    valid_to: Temperature | None = None
 
     @model_validator(mode="after")
     def _exists(self) -> Self:
@@ -170,7 +176,7 @@ class IsoGrade(AbsoluteLaw):
 
     def valid(self) -> tuple[float, float]:
         """The lowest and the highest valid temperature, K."""
-        return self.walther.valid()
+        return self.narrowed(*self.walther.valid())
 
     def viscosity(self, temperature: Array) -> tuple[Array, Array]:
         """The kinematic viscosity ν, m²/s, and dν/dT; shape of ``temperature``, K; InputError if it is too low."""

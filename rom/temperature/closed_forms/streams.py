@@ -127,7 +127,20 @@ def heated_shear_flow(
 def heated_shear_flux(
     position: Array, *, shear_rate: float, conductivity: float, diffusivity: float, inlet: float, wall: float
 ) -> Array:
-    """The heat flux from the wall into the flow of :func:`heated_shear_flow`, W/m², of the shape of ``position``."""
+    """The heat flux from the wall into the flow of :func:`heated_shear_flow`, W/m², of the shape of ``position``.
+
+    q = k (T_w - T0) (γ/(9 κ x))^(1/3)/Γ(4/3), which is infinite at x = 0; exact in the range of that flow.
+
+    Parameters
+    ----------
+    position : distances x from the step of the temperature, m, above 0, of any shape.
+    shear_rate : shear rate γ at the wall, 1/s.
+    conductivity : thermal conductivity k, W/(m K).
+    diffusivity : thermal diffusivity κ, m²/s.
+    inlet, wall : temperatures T0 of the fluid that arrives and T_w of the wall, K.
+
+    Source: Lévêque 1928, Annales des Mines 13, 201-299.
+    """
     gradient = (shear_rate / (9 * diffusivity * np.asarray(position))) ** (1 / 3) / gamma(4 / 3)
     return np.asarray(conductivity * (wall - inlet) * gradient)
 

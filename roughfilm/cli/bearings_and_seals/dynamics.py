@@ -92,11 +92,15 @@ def command(
             show_default=False,
         ),
     ] = 1.0,
+    isothermal: Annotated[
+        bool, typer.Option("--isothermal", help="All films at the temperature of the supplied lubricant.")
+    ] = False,
     set_: Overrides = None,
     as_json: AsJson = False,
 ) -> None:
     """Sweep speed and load of a bearing: stiffness, damping and the stability of its rotor."""
     spent, bearing = stopwatch(), bearing_of(load_scene(scene, set_ or ()))
+    bearing = bearing.isothermal() if isothermal else bearing
     check_bearing(bearing)
     sliding, pressures = _speeds(bearing, speeds), _pressures(bearing, loads)
     resolution = whole_in_range("--resolution", resolution, MIN_CELLS, MAX_CELLS)
@@ -174,9 +178,12 @@ def _tables(bearing: Bearing, curves: Sequence[DynamicCurve]) -> Iterator[Table 
         whirls = "whirl_ratio" in curve.points[0].numbers
         heads = [f"speed, {scale.unit}", "least film, µm"]
         touching = "contact_share" in curve.points[0].numbers
+        heated = "temperature" in curve.points[0].numbers
         if touching:
             heads.append("contact, %")
-        elif whirls:
+        if heated:
+            heads.append("film, °C")
+        if whirls and not (touching or heated):
             heads.append("eccentricity")
         heads += ["whirl ratio", "critical mass, kg"] if whirls else ["K, N/µm", "B, kN·s/m"]
         yield table_of(
@@ -190,7 +197,9 @@ def _row(point: DynamicPoint, factor: float, *, whirls: bool) -> list[str]:
     beginning = [digits(factor * point.speed), number_of(point, "film_min", 1e6)]
     if "contact_share" in point.numbers:
         beginning.append(number_of(point, "contact_share", 100.0))
-    elif whirls:
+    if "temperature" in point.numbers:
+        beginning.append(number_of(point, "temperature"))
+    if whirls and not point.numbers.keys() & {"contact_share", "temperature"}:
         beginning.append(number_of(point, "eccentricity"))
     if not whirls:
         return [*beginning, number_of(point, "stiffness", 1e-6), number_of(point, "damping", 1e-3)]
@@ -227,7 +236,7 @@ def curve_entries(scene: Bearing, curves: Sequence[DynamicCurve]) -> dict[str, A
         "numerics": {"residual": max(point.residual for point in points), "points": len(points)},
         "provenance": origin(
             SOURCES,
-            [*heat_warnings(scene), *(warning for curve in curves for warning in warnings_of(scene, curve))],
+            [*heat_warnings(scene, curves), *(warning for curve in curves for warning in warnings_of(scene, curve))],
             scene=scene_entries(scene),
         ),
     }

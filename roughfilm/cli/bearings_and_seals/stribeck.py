@@ -48,7 +48,16 @@ from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.terminal.scenes import bearing_of, refuse_jobs
 from roughfilm.words.average import count_in_words
 from roughfilm.words.numbers import finite
-from roughfilm.words.stribeck import at_own_speed, lift_off, lift_off_scatter, scatter_of, speed_scale
+from roughfilm.words.stribeck import (
+    at_own_speed,
+    flash_warnings_of,
+    flash_words,
+    hottest_spots,
+    lift_off,
+    lift_off_scatter,
+    scatter_of,
+    speed_scale,
+)
 
 EXAMPLES = (
     "roughfilm stribeck scripts/examples/scenes/rough_washer.toml --out rough",
@@ -163,7 +172,13 @@ def command(
         ]
         if None not in hottest:
             heads.append("hottest film, °C")
-        lowest = [(curve, _least_friction(curve), hot) for curve, hot in zip(curves, hottest, strict=True)]
+        spots = [flash_words(curve) for curve in curves]
+        if all(spots):
+            heads.append("spots hotter by, K")
+        lowest = [
+            (curve, _least_friction(curve), hot, flash)
+            for curve, hot, flash in zip(curves, hottest, spots, strict=True)
+        ]
 
         def scatter(number: str) -> list[str]:
             return [] if cells is None else [number]
@@ -181,8 +196,9 @@ def command(
                     f"{curve.points[0].friction_coefficient:.3g}",
                     *scatter(scatter_of(curve.points[0], "friction_coefficient")),
                     *([] if hot is None else [f"{hot:.1f}"]),
+                    *([flash] if flash else []),
                 )
-                for curve, least, hot in lowest
+                for curve, least, hot, flash in lowest
             ],
             title=None if cells is None else f"over {count_in_words(len(cells.paths), cells.independent)}",
         )
@@ -230,6 +246,13 @@ def curve_entries(
             },
             f"speed of the least friction at {name}": {"value": least.speed, "unit": "m/s"},
         }
+        if (spots := hottest_spots(curve.points)) is not None:
+            quantities[f"greatest flash temperature at {name}"] = {
+                "value": spots[1].mean,
+                "low": spots[1].low,
+                "high": spots[1].high,
+                "unit": "K",
+            }
     points = [point for curve in curves for point in curve.points]
     names = numbers_of(points)
     never = [curve.pressure for curve in curves if math.isnan(curve.lift_off.speed)]
@@ -240,6 +263,9 @@ def curve_entries(
         for curve in curves
         if (missing := len(speeds) - len(curve.points))
     ]
+    warnings += flash_warnings_of(scene, points)
+    if cells is not None and scene.asperities is not None and scene.asperities.solid_heat is not None:
+        warnings.append("asperities.solid_heat: flash temperatures are left out over windows; take one surface")
     if heated := [point.temperature + ZERO_CELSIUS for point in points if point.temperature is not None]:
         warnings += scene.lubricant.temperature_warnings(min(heated), max(heated))
     return {

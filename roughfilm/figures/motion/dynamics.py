@@ -128,6 +128,25 @@ def stability(scene: Bearing, curves: Sequence[DynamicCurve]) -> Figure:
     return figure
 
 
+def temperatures(scene: Bearing, curves: Sequence[DynamicCurve]) -> Figure:
+    """The temperatures of the film and, dashed, of what leaves it over speed; bands are known uncertainties."""
+    scale = speed_scale(scene)
+    figure, axes = new_figure((11.4, 3.8))
+    for curve, colour in zip(curves, itertools.cycle(COLOURS), strict=False):
+        speeds = _speeds(curve, scale.factor)
+        for name, style in (("temperature", "-"), ("outlet_temperature", "--")):
+            values = np.array([point.numbers[name] for point in curve.points])
+            errors = np.nan_to_num([point.uncertainty[name] for point in curve.points], posinf=0.0)
+            label = f"load {curve.pressure / 1e6:.4g} MPa" if name == "temperature" else None
+            axes.plot(speeds, values, color=colour, linestyle=style, linewidth=1.4, label=label)
+            axes.fill_between(speeds, values - errors, values + errors, color=colour, alpha=0.2, linewidth=0)
+    _speed_axis(axes, curves, scale.factor, scale.unit)
+    axes.set_ylabel("temperature, °C")
+    axes.axvline(scale.factor * abs(scene.motion.speed), color="0.35", linewidth=1, linestyle="--", zorder=0)
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside upper center", ncols=6)
+    return figure
+
+
 def _speeds(curve: DynamicCurve, factor: float) -> Array:
     return np.array([point.speed for point in curve.points]) * factor
 

@@ -14,8 +14,8 @@ from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.supply.patches import Patch
 
-TICKS = 45.0
-"""Angle between the ticks of an axis around a shaft, degrees."""
+TICKS, FEW_TICKS = 45.0, 90.0
+"""Angle between the ticks of an axis around a shaft, degrees, and on a narrow map."""
 
 ROUNDING = 1e-6
 """Distance from the edge of a gap up to which a place lies on it, degrees."""
@@ -58,14 +58,23 @@ class Along:
         """The places of positions x on the axis."""
         return np.asarray(self.start + self.factor * x)
 
-    def mark(self, axes: Axes, *, covered: bool = False, named: bool = False, at: float | None = None) -> None:
-        """Mark the gaps between lobes and the direction of the load, and set ticks of 45 degrees around a shaft.
+    def mark(
+        self,
+        axes: Axes,
+        *,
+        covered: bool = False,
+        named: bool = False,
+        at: float | None = None,
+        ticks: float = TICKS,
+    ) -> None:
+        """Mark the gaps between lobes and the direction of the load, and set ticks around a shaft.
 
         Parameters
         ----------
         covered : whether the gaps cover what is drawn.
         named : whether the direction of the load and the supplies stand in the legend.
         at : position across, m, of a section whose supplies are shaded.
+        ticks : angle between the ticks, degrees.
         """
         low, high = axes.get_xlim()
         label = "supply" if named else None
@@ -80,7 +89,7 @@ class Along:
             if self.load is not None:
                 label = "direction of the load" if named else None
                 axes.axvline(self.load, color=LOAD_COLOUR, linewidth=1, linestyle=(0, (6, 3)), label=label, zorder=3)
-            axes.set_xticks(np.arange(np.ceil(low / TICKS), np.floor(high / TICKS) + 1) * TICKS)
+            axes.set_xticks(np.arange(np.ceil(low / ticks), np.floor(high / ticks) + 1) * ticks)
         axes.set_xlim(low, high)
 
     def outline(self, axes: Axes) -> None:

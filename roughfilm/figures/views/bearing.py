@@ -11,7 +11,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import MAX_PIXELS, new_figure, svg
 from roughfilm.figures.differences import Differences, differences, on_points
-from roughfilm.figures.shafts.angles import EDGE_COLOUR, GAP_COLOUR, LEAST_COLOUR, Along, along_of
+from roughfilm.figures.shafts.angles import EDGE_COLOUR, FEW_TICKS, GAP_COLOUR, LEAST_COLOUR, Along, along_of
 from roughfilm.figures.shafts.around import around
 from roughfilm.figures.view import Plot, Style, View, groups_by
 from roughfilm.rom.bearing.geometry.lobes import Lobes
@@ -172,11 +172,12 @@ def _difference_maps(
             axes.set_title(model, fontsize=9)
             axes.set_xlabel(along.label, fontsize=8)
             axes.set_ylabel("across, mm", fontsize=8)
-            along.mark(axes, covered=True)
+            along.mark(axes, covered=True, ticks=FEW_TICKS)
             along.outline(axes)
             axes.label_outer()
         title, scale = fields[name][:2]
-        axes.figure.colorbar(image, ax=line, label=scale.label(f"difference\nin {title}"), shrink=0.95)
+        label = scale.label(f"difference\nin {title}").replace("°C", "K")
+        axes.figure.colorbar(image, ax=line, label=label, shrink=0.95)
 
 
 def _map(axes: Axes, x: Array, y: Array, values: Array, **look: Any) -> Any:
@@ -195,7 +196,7 @@ def _on(result: Result, field: str, place: Sequence[Array]) -> Array:
 
 def _mark(axes: Axes, along: Along, result: Result) -> None:
     """Mark the gaps between lobes, the direction of the load, the supplies, the pivots and the least film on a map."""
-    along.mark(axes, covered=True)
+    along.mark(axes, covered=True, ticks=FEW_TICKS)
     along.outline(axes)
     if along.around:
         least = [result.quantities[name].value for name in ("film_min_x", "film_min_y")]
@@ -240,6 +241,15 @@ VIEW = View(
         "power_loss",
         "pressure_max",
         "temperature_max",
+        "temperature_mean",
+        "effective_temperature",
+        "inlet_temperature",
+        "outlet_temperature",
+        "shaft_temperature",
+        "heat_to_lubricant",
+        "heat_to_fixed_wall",
+        "heat_to_sliding_wall",
+        "heat_to_surroundings",
         "inlet_flow",
         "side_leakage",
         "supply_flow",

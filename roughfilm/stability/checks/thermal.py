@@ -10,9 +10,9 @@ from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.tables import Conducting, GivenTemperature, HalfSpace, Turning
-from roughfilm.rom.cavitation.evaluation.flows import node_balances, node_storage
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.temperature.dissipation import film_flows
 
 BALANCE = 1e-8
 """Allowed error of the heat balance of a film over its heat flows, unless the result states a larger one."""
@@ -50,7 +50,9 @@ def heat_errors(scene: Bearing, result: Result, solution: Solution, heated: Heat
     Lubricant enters with the temperature of the supply or that of the mixture at the inlet. It leaves with that of its
     node, or, where the temperature varies across the film, with the mean by its flow, ``outlet``.
     """
-    liquid, net, zero = scene.lubricant.liquid, node_balances(solution), 0.0
+    liquid, zero = scene.lubricant.liquid, 0.0
+    flows = film_flows(solution, 1.0 if scene.heat is None else scene.heat.carried_over)
+    net = flows.entering
     entering, leaving = np.maximum(net, zero), np.maximum(-net, zero)
     warm = np.full(net.shape, liquid.temperature)
     if heated.inlet is not None:
@@ -61,12 +63,12 @@ def heat_errors(scene: Bearing, result: Result, solution: Solution, heated: Heat
     else:
         outlet = liquid.temperature if heated.outlet is None else heated.outlet
         carried_out = float(leaving.sum() * liquid.heat(np.array([outlet]))[0][0])
-        carried_out += float((node_storage(solution) * liquid.heat(heated.temperature)[0]).sum())
+        carried_out += float((flows.stored * liquid.heat(heated.temperature)[0]).sum())
     walls = (heated.to_fixed_wall or 0.0, heated.to_sliding_wall or 0.0)
     work = result["power_loss_per_width" if solution.problem.shape.wide else "power_loss"].value
     work += float((solution.state.pressure * net).sum())
-    flows = (heated.generated, carried_in, carried_out, *walls)
-    scale = sum(abs(one) for one in flows) or 1.0
+    heats = (heated.generated, carried_in, carried_out, *walls)
+    scale = sum(abs(one) for one in heats) or 1.0
     balance = heated.generated + carried_in - carried_out - sum(walls)
     return HeatErrors(balance=abs(balance) / scale, work=abs(heated.generated - work) / (abs(work) or 1.0))
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from itertools import groupby
+from typing import Any
 
 import numpy as np
 
@@ -83,29 +84,36 @@ def _slope(numbers: Array, lines: list[dict[str, str]], column: str) -> Array:
     return np.asarray(np.gradient([float(line[_heading(column)]) for line in lines], numbers))
 
 
+def mean_pressure(number: float) -> float:
+    """The load over the nominal area at a Sommerfeld number, Pa."""
+    return VISCOSITY * REVOLUTIONS * (RADIUS / CLEARANCE) ** 2 / number
+
+
+def entries(number: float, preload: float) -> dict[str, Any]:
+    """The scene of a bearing as long as its diameter, at a Sommerfeld number ηN/p (R/c)²."""
+    return {
+        "name": "journal with two axial grooves",
+        "kind": "bearing",
+        "geometry": {
+            "shape": "lobes",
+            "radius": f"{RADIUS!r} m",
+            "clearance": f"{CLEARANCE!r} m",
+            "width": f"{2 * RADIUS!r} m",
+            "lobes": 2,
+            "arc": "160 deg",
+            "preload": preload,
+        },
+        "lubricant": {"viscosity": f"{VISCOSITY!r} Pa*s"},
+        "motion": {"speed": f"{2 * np.pi * REVOLUTIONS * RADIUS!r} m/s"},
+        "load": {"pressure": f"{mean_pressure(number)!r} Pa"},
+    }
+
+
 def _point(number: float, preload: float, cells: int) -> DynamicPoint:
-    """The point of a bearing as long as its diameter, at a Sommerfeld number ηN/p (R/c)²."""
-    scene = read_scene(
-        {
-            "name": "journal with two axial grooves",
-            "kind": "bearing",
-            "geometry": {
-                "shape": "lobes",
-                "radius": f"{RADIUS!r} m",
-                "clearance": f"{CLEARANCE!r} m",
-                "width": f"{2 * RADIUS!r} m",
-                "lobes": 2,
-                "arc": "160 deg",
-                "preload": preload,
-            },
-            "lubricant": {"viscosity": f"{VISCOSITY!r} Pa*s"},
-            "motion": {"speed": f"{2 * np.pi * REVOLUTIONS * RADIUS!r} m/s"},
-            "load": {"pressure": "1 MPa"},
-        }
-    )
+    """The point at a Sommerfeld number."""
+    scene = read_scene(entries(number, preload))
     assert isinstance(scene, Bearing)
-    pressure = VISCOSITY * REVOLUTIONS * (RADIUS / CLEARANCE) ** 2 / number
-    (curve,) = dynamics(scene, [scene.motion.speed], [pressure], resolution=cells)
+    (curve,) = dynamics(scene, [scene.motion.speed], [mean_pressure(number)], resolution=cells)
     return curve.points[0]
 
 

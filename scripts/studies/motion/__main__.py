@@ -1,7 +1,7 @@
 """Count how often the uncertainties of films whose walls move hold: python -m scripts.studies.motion --out OUT.
 
 Random bearings are solved on a coarse grid, by `solve`, `dynamics` and `march`, and on finer ones. Films with
-temperatures are counted by `--commands heat_balance,adiabatic,across`.
+temperatures are counted by `--commands heated_dynamics,heat_balance,adiabatic,across`.
 """
 
 from collections.abc import Sequence
@@ -20,7 +20,16 @@ from roughfilm.figures.base import new_figure
 from roughfilm.rom.ladder.provenance import circumstances
 from roughfilm.terminal.console import AsJson, in_one_line, make_directory, run_alone
 from scripts.studies.coverage.judge import FAR, GOAL, Coverage, Finding, coverage
-from scripts.studies.motion.counting import DYNAMICS, MARCH, SOLVE, THERMAL, Counted, count_scene, counted_of
+from scripts.studies.motion.counting import (
+    DYNAMICS,
+    HEATED_DYNAMICS,
+    MARCH,
+    SOLVE,
+    THERMAL,
+    Counted,
+    count_scene,
+    counted_of,
+)
 from scripts.studies.motion.random_scenes import HEATED, IN_TIME, KINDS
 from scripts.studies.study import Out, counted, kept, publish
 
@@ -30,11 +39,11 @@ ALL = "all"
 USUAL = (SOLVE, MARCH)
 """What a scene is asked by default; the equilibrium comes with its stiffness and damping."""
 
-COMMANDS = (*USUAL, *THERMAL)
-"""All that a scene can be asked; a model with temperatures solves another scene, whose lubricant heats."""
+COMMANDS = (*USUAL, HEATED_DYNAMICS, *THERMAL)
+"""All that a scene can be asked; the last ones solve another scene, whose lubricant heats."""
 
 
-KINDS_OF = {SOLVE: tuple(KINDS), MARCH: IN_TIME, **dict.fromkeys(THERMAL, tuple(HEATED))}
+KINDS_OF = {SOLVE: tuple(KINDS), MARCH: IN_TIME, HEATED_DYNAMICS: tuple(KINDS), **dict.fromkeys(THERMAL, tuple(HEATED))}
 """Kinds of scenes by what they are asked."""
 
 
@@ -96,7 +105,7 @@ def command(
                 if one.refused
             ],
             "misses": misses,
-            "cells": {**dict.fromkeys((SOLVE, DYNAMICS, *THERMAL), cells), MARCH: march_cells},
+            "cells": {**dict.fromkeys((SOLVE, DYNAMICS, HEATED_DYNAMICS, *THERMAL), cells), MARCH: march_cells},
             "provenance": circumstances(),
         },
         tables=[table(rows), *(f"missed: {miss(one)}" for one in misses), *map(words, tallies)],

@@ -12,6 +12,7 @@ from scripts.studies.motion.solving import (
     Stated,
     Truth,
     dynamics_answer,
+    heated_dynamics_truth,
     heated_truth,
     march_answer,
     march_truth,
@@ -26,6 +27,9 @@ SOLVE, DYNAMICS, MARCH = "solve", "dynamics", "march"
 ACROSS = "across"
 THERMAL = ("heat_balance", "adiabatic", ACROSS)
 """Models with temperatures, each judged as a command of its own."""
+
+HEATED_DYNAMICS = "heated_dynamics"
+"""Stiffness and damping at the temperature of the heat balance."""
 
 ROUND_OFF = 1e-9
 """Relative difference up to which an answer is the truth: residuals of films and forces."""
@@ -44,7 +48,8 @@ class Counted:
     Attributes
     ----------
     kind, seed : the scene.
-    command : "solve", which stands for the equilibrium with its stiffness and damping, "march", or a thermal model.
+    command : "solve", which stands for the equilibrium with its stiffness and damping, "march", "heated_dynamics", or a
+        thermal model.
     found : every judged number.
     silent : numbers without an uncertainty, by the command.
     refused : why there is no answer or no truth; empty if there are both.
@@ -65,12 +70,16 @@ def count_scene(kind: str, seed: int, command: str, cells: int) -> dict[str, Any
 
     Parameters
     ----------
-    command : ``SOLVE`` for the equilibrium and its stiffness and damping, ``MARCH``, or a model of ``THERMAL``.
+    command : ``SOLVE`` for the equilibrium and its stiffness and damping, ``MARCH``, ``HEATED_DYNAMICS``, or a model of
+        ``THERMAL``.
     cells : cells along the film of the answer; there are half as many across.
     """
     try:
         if command in THERMAL:
             answers = _heated(kind, seed, command, cells)
+        elif command == HEATED_DYNAMICS:
+            scene = drawn_with_heat(kind, seed)
+            answers = {command: (dynamics_answer(scene, cells), heated_dynamics_truth(scene, cells))}
         else:
             answers = _marched(kind, seed, cells) if command == MARCH else _settled(kind, seed, cells)
     except (InputError, ConvergenceError) as error:

@@ -120,6 +120,18 @@ def heated_truth(scene: Bearing, cells: int, model: str) -> Truth:
     return extrapolated(levels, HEATED_RATIOS)
 
 
+def heated_dynamics_truth(scene: Bearing, cells: int) -> Truth:
+    """Return the truth of stiffness and damping with the heat balanced, from grids finer than ``cells``.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        If there is no equilibrium on one of the grids.
+    """
+    levels = [dynamics_answer(scene, round(along * cells)).values for along, _ in HEATED_RATIOS]
+    return extrapolated(levels, HEATED_RATIOS)
+
+
 def _settled(scene: Bearing, cells: int) -> Iterator[tuple[FreeFilm, Instant]]:
     """Solve for the equilibrium on each grid of a truth; each starts from the one before."""
     before: tuple[FreeFilm, Instant] | None = None

@@ -4,6 +4,7 @@ import contextlib
 import itertools
 import math
 import random
+import re
 
 import numpy as np
 import pytest
@@ -177,10 +178,36 @@ def test_a_kinematic_viscosity_times_the_density_is_the_dynamic_one():
     assert dynamic_viscosity(7, "870 kg/m3") == 7
 
 
-@pytest.mark.parametrize("text", ["113 degF", "45 celsius", "45 degree_Celsius", "36 degRe"])
-def test_scales_of_temperature_with_another_zero_are_unknown(text):
-    with pytest.raises(ValueError, match=r"whose unit is not known; .*degC"):
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("113 degF", "a temperature in Fahrenheit; write '45 degC'"),
+        ("113 °F", "a temperature in Fahrenheit; write '45 degC'"),
+        ("32.9 F", "a temperature in Fahrenheit; write '0.5 degC'"),
+        ("45 celsius", "which is not a temperature; did you mean '45 degC'?"),
+        ("45 C", "which is not a temperature; did you mean '45 degC'?"),
+        ("45°", "which is not a temperature; did you mean '45 degC'?"),
+        ("45 degree_Celsius", "whose unit is not known; write a temperature, in degC or K"),
+        ("36 degRe", "whose unit is not known; did you mean '36 degC'?"),
+    ],
+)
+def test_other_scales_of_temperature_are_refused_with_the_remedy(text, words):
+    with pytest.raises(ValueError, match=re.escape(f"got {text!r}, {words}")):
         to_si(text, "K")
+
+
+@pytest.mark.parametrize(
+    ("text", "base", "meant"),
+    [
+        ("2 kJ/kgK", "J/(kg*K)", "2 kJ/(kg*K)"),
+        ("2000 J/kgK", "J/(kg*K)", "2000 J/(kg*K)"),
+        ("0.13 W/mK", "W/(m*K)", "0.13 W/(m*K)"),
+        ("20 W/m2K", "W/(m^2*K)", "20 W/(m^2*K)"),
+    ],
+)
+def test_units_without_parentheses_are_recognised(text, base, meant):
+    with pytest.raises(ValueError, match=re.escape(f"did you mean '{meant}'?")):
+        to_si(text, base)
 
 
 def test_numbers_that_python_marks_are_in_si_units():

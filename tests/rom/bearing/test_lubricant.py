@@ -53,7 +53,7 @@ def test_a_law_determines_the_viscosity_with_the_density():
 def test_a_given_viscosity_must_agree_with_the_law():
     agreed = lubricant(**GRADE, viscosity=f"{lubricant(**GRADE).viscosity * 1.0002!r} Pa*s")
     assert agreed == lubricant(**GRADE)
-    with pytest.raises(InputError, match=r"viscosity: got 0\.03 Pa s, but the law iso_vg gives 0\.0185932 Pa s at 50"):
+    with pytest.raises(InputError, match=r"viscosity: got 0\.03 Pa s, but the law iso_vg has 0\.0185932 Pa s at 50"):
         scene(**GRADE, viscosity="30 mPa*s")
 
 
@@ -129,7 +129,7 @@ def test_temperatures_outside_of_a_range_have_a_warning():
         ({"thermoviscosity": {"law": "iso"}}, r"thermoviscosity\.law: got 'iso'; it must be one of 'exponential', "),
         ({"thermoviscosity": {"law": "iso_vg", "grad": 32}}, r"thermoviscosity\.grad: .*did you mean 'grade'"),
         ({"heat_capacity": {"tabel": TABLE}}, r"heat_capacity\.tabel: unknown key; did you mean 'table'"),
-        ({"heat_capacity": {}}, r"heat_capacity: give a number, such as"),
+        ({"heat_capacity": {}}, r"heat_capacity: got neither of constant and table; give"),
         ({"heat_capacity": "2 kW"}, r"heat_capacity: got '2 kW', which has the wrong dimension"),
         ({"heat_capacity": {"table": TABLE[::-1]}}, r"heat_capacity\.table: got 50 °C at row 2 after 150 °C"),
         ({"temperature": "-250 degC"}, r"lubricant\.temperature: got -250 °C; the law iso_vg has no viscosity up to"),

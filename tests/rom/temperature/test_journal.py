@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from warm_films import SUPPLY, imbalance, journal, liquid
+from warm_films import CAPACITY, CLEARANCE, RADIUS, SUPPLY, imbalance, journal, liquid
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.cavitation.evaluation.friction import friction
@@ -37,6 +37,21 @@ def test_heat_is_conserved_with_a_heat_capacity_that_grows(film):
     warm = temperature_across(film, oil, sliding_wall=TurningWall(), fixed_wall=OUTSIDE, entering=SUPPLY + 20)
     assert abs(imbalance(warm.balance)) < 1e-8
     assert warm.balance.entering > 0.1 * warm.balance.dissipation
+
+
+@pytest.mark.parametrize("growth", [0.0, 3e-3])
+@pytest.mark.parametrize(
+    "sliding", [InsulatedWall(), TurningWall(), ConductingWall(resistance=1e-4, surroundings=SUPPLY)]
+)
+@pytest.mark.parametrize("fixed", [InsulatedWall(), OUTSIDE])
+def test_heat_is_conserved_at_a_low_peclet_number(sliding, fixed, growth):
+    """ρc u h²/(k L) = 1e-3 in a film that heats by 0.1 to 1 K: to 1e-8 of the greatest heat flow."""
+    thin, length = journal(16, viscosity=2e-4), 2 * np.pi * RADIUS
+    conductivity = CAPACITY * thin.problem.speed * CLEARANCE**2 / length / 1e-3
+    oil = liquid(viscosity=2e-4, slope=0.03, conductivity=conductivity, growth=growth)
+    balance = temperature_across(thin, oil, sliding_wall=sliding, fixed_wall=fixed).balance
+    flows = balance.dissipation, balance.leaving, balance.sliding_wall, balance.fixed_wall
+    assert abs(imbalance(balance)) * balance.dissipation < 1e-8 * max(abs(flow) for flow in flows)
 
 
 def test_the_power_is_that_of_friction_and_supply(film):

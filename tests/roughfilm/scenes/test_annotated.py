@@ -67,6 +67,28 @@ def test_a_key_in_a_comment_may_be_written(tmp_path):
     assert rf.load_scene(path).lubricant.density == 870
 
 
+def forms(place):
+    """The forms of a table that the annotated bearing shows as comments, as entries; alternatives are left out."""
+    blocks = annotated_scene("bearing").split("\n\n")
+    for block in (one for one in blocks if one.startswith(f"# [{place}]")):
+        keys = [line[2:] for line in block.splitlines() if re.match(r"# \w+ = ", line)]
+        given = tomllib.loads("\n".join(keys))
+        yield {key: value for key, value in given.items() if key not in ("points", "table", "relaxation_time")}
+
+
+@pytest.mark.parametrize("place", ["lubricant.heat_capacity", "lubricant.shear_thinning", "heat"])
+@pytest.mark.parametrize("wall", ["heat.fixed_wall", "heat.sliding_wall"])
+def test_tables_of_temperature_in_comments_may_be_written(place, wall):
+    shape = tomllib.loads(annotated_scene("bearing", "linear"))
+    shape["lubricant"] = {"oil": "ISO VG 46", "temperature": "40 degC"}
+    for table in (place, wall):
+        for entries in forms(table):
+            first, *inner = table.split(".")
+            added = {inner[0]: entries} if inner else entries
+            read = rf.read_scene(shape | {first: shape.get(first, {}) | added})
+            assert str(entries.get("kind", entries.get("law", ""))) in str(read)
+
+
 @pytest.mark.parametrize(
     ("kind", "variant", "words"),
     [

@@ -15,6 +15,7 @@ from roughfilm.rom.bearing.thermal.field.mixing import (
     COARSE_NODES,
     MIXED,
     at_mixture,
+    mixture_of,
     new_lubricant,
     power_of_end,
     returning,
@@ -24,12 +25,12 @@ from roughfilm.rom.bearing.thermal.field.mixing import (
 from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.bearing.thermal.tables import Adiabatic, Conducting, GivenTemperature, HalfSpace, Heat, Turning
-from roughfilm.rom.cavitation.evaluation.flows import node_balances, node_storage
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.shear_thinning.film import thinned_profiles
 from roughfilm.rom.temperature.across import MODES, TemperatureAcross, temperature_across
 from roughfilm.rom.temperature.basis import basis
+from roughfilm.rom.temperature.dissipation import film_flows
 from roughfilm.rom.temperature.walls import (
     ConductingWall,
     FixedWall,
@@ -71,7 +72,7 @@ class BetweenWalls:
         ConvergenceError
             If the temperatures or the mixture at the inlet do not converge.
         """
-        scene, liquid = self.scene, self.scene.lubricant.liquid
+        scene, liquid, heat = self.scene, self.scene.lubricant.liquid, self.scene.heat or Heat()
         new = new_lubricant(scene, solution, liquid.temperature)
         back, boundary = returning(scene, solution, new), asperity_friction(scene, solution, near)
         sliding, fixed = walls_of(scene, liquid.temperature)
@@ -83,31 +84,34 @@ class BetweenWalls:
         at_end = power_of_end(solution, start.viscosities.shear) if start is not None and same else None
         added = [one for one in (at_end, None if boundary is None else boundary.power) if one is not None]
 
-        def temperatures(inlet: float | None, known: TemperatureAcross | None) -> TemperatureAcross:
+        def temperatures(inlet: float | None, last: TemperatureAcross | None) -> TemperatureAcross:
             return temperature_across(
                 solution,
                 sheared,
                 sliding_wall=sliding,
                 fixed_wall=fixed,
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
+                carried_over=heat.carried_over,
                 added_power=sum(added[1:], added[0]) if added else None,
-                start=start if known is None else known,
+                start=start if last is None else last,
                 tolerance=TOLERANCE,
                 renewals=RENEWALS if fine and not free else None,
             )
 
+        known = mixture_of(near, solution)
         if back is None:
             found, mixture = temperatures(None, None), None
         else:
             found, mixture = at_mixture(
                 temperatures,
                 lambda one: back.mixture(liquid, one.carried),
-                back.first if near is None or near.inlet is None else near.inlet,
-                roughly=fine,
+                back.first if known is None else known,
+                viscosities=lambda one: seen_from_inside(one.viscosities, solution),
+                once=fine and known is not None,
             )
-        balance, leaving = found.balance, float(np.maximum(-node_balances(solution), 0.0).sum())
-        spilled = balance.stored - float((node_storage(solution) * liquid.heat(found.mean)[0]).sum())
-        heat = scene.heat or Heat()
+        balance, flows = found.balance, film_flows(solution, heat.carried_over)
+        leaving = float(np.maximum(-flows.entering, 0.0).sum())
+        spilled = balance.stored - float((flows.stored * liquid.heat(found.mean)[0]).sum())
         turning = heat.sliding_wall
         given = turning.temperature if isinstance(turning, Turning) else None
         return HeatedFilm(

@@ -11,15 +11,18 @@ from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.asperity_friction import asperity_friction
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm, hottest, start_of
 from roughfilm.rom.bearing.thermal.field.mixing import (
+    COARSE_NODES,
     MIXED,
     at_mixture,
     is_seen_from_inside,
+    mixture_of,
     new_lubricant,
     replaced,
     returning,
     seen_from_inside,
 )
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
+from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.shear_thinning.film import thinned
@@ -60,28 +63,32 @@ class AdiabaticWalls:
         slopes = before.slopes if before is not None and before.films >= FREE_FILMS else None
         boundary, at_rest = asperity_friction(scene, solution, near), viscosity_at_rest(scene, solution, near)
         at_rest, at_end = kept_at_end(solution, at_rest)
+        fine = near is not None and solution.state.pressure.size > COARSE_NODES
 
-        def temperatures(inlet: float | None, known: MeanTemperature | None) -> MeanTemperature:
+        def temperatures(inlet: float | None, last: MeanTemperature | None) -> MeanTemperature:
             return mean_temperature(
                 solution,
                 liquid,
                 entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
                 exchange=cooled,
                 wall=new,
+                carried_over=(scene.heat or Heat()).carried_over,
                 added_power=at_end if boundary is None else at_end + boundary.power,
                 at_rest=at_rest,
-                start=start_of(near, solution) if known is None else known.temperature,
+                start=start_of(near, solution) if last is None else last.temperature,
                 slopes=slopes,
             )
 
+        known = mixture_of(near, solution)
         if back is None:
             found, mixture = temperatures(None, None), None
         else:
             found, mixture = at_mixture(
                 temperatures,
                 lambda one: back.mixture(liquid, one.temperature),
-                back.first if near is None or near.inlet is None else near.inlet,
-                roughly=False,
+                back.first if known is None else known,
+                viscosities=lambda one: seen_from_inside(one.viscosities, solution),
+                once=fine and known is not None,
             )
         viscosities, stress = with_thinning(scene, solution, found, near)
         viscosities = seen_from_inside(viscosities, solution)

@@ -1,17 +1,18 @@
 """The film and the temperatures that agree with each other: a fixed point of viscosities."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from typing import Any, Generic, Protocol, TypeVar
+from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
-from roughfilm.contact.foundation.units import ZERO_CELSIUS
+from roughfilm.rom.bearing.thermal.field.heated import Mixture
 from roughfilm.rom.bearing.thermal.field.nodal import logarithms, own_logarithms
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.lubricants.thermal.law import celsius
 
 FIELD_TOLERANCE = 2e-5
 """Root mean square over the film of the difference of ln η between a film and its temperatures, at which it stops."""
@@ -29,11 +30,21 @@ The larger one is met where the pressure jumps at a corner, or lubricant circula
 every film at a few nodes.
 """
 
+CARRIED, NEARLY = 0.2, 3.0
+"""Relative error of the load of a film that changes further, over the expected difference of its ln η; and this
+difference over the tolerance below which the film meets the tolerance of its load."""
+
+FIRST_ERROR, FIRST_FALL = 0.01, 0.1
+"""That error for the first film of a finer grid; and the expected fall of the difference from the first film on."""
+
+SOFTER_AT_INLET = 0.03
+"""Change of ln η by 1 K, 1/K, by which errors of the temperature at the inlet count as those of ln η."""
+
 MAX_FILMS = 60
 """Largest number of films in one iteration; three to eight are usual."""
 
-REMEMBERED = 3
-"""Number of earlier iterations from which the next viscosities are extrapolated."""
+REMEMBERED = 6
+"""Number of earlier iterations from which the next viscosities, and the temperature at the inlet, are extrapolated."""
 
 SAMPLES = 64
 """Number of nodes along each direction at least that count in the least squares of Anderson's method."""
@@ -47,7 +58,10 @@ HOTTEST = 773.15
 MAX_HALVINGS = 4
 """Largest number of times that a step to a film that does not exist is halved."""
 
-RUNAWAY = "lower the speed, the load or the viscosity, or cool the film by more supplied lubricant or its walls"
+RUNAWAY = (
+    "lower the speed, the load or the viscosity, supply more or colder lubricant, or take the model across with walls "
+    "that take heat, table [heat]"
+)
 """Remedy of a thermal runaway."""
 
 
@@ -59,7 +73,9 @@ SOFTER_FILMS = 6
 
 
 class Heated(Protocol):
-    """The temperatures of a film, as the energy equation gives them for its flows."""
+    """The temperatures of a film, as the energy equation gives them for its flows; a dataclass."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
 
     @property
     def temperature(self) -> Array:
@@ -76,6 +92,11 @@ class Heated(Protocol):
         """Whether they meet the tolerance of the energy equation; further steps for the same film do if not."""
         ...
 
+    @property
+    def inlet(self) -> Mixture | None:
+        """The mixture at the inlet; None without hot lubricant that enters again."""
+        ...
+
 
 class Film(Protocol):
     """A film of a bearing with its solution."""
@@ -87,10 +108,33 @@ class Film(Protocol):
 
 
 FilmT = TypeVar("FilmT", bound=Film)
+
+Again = Callable[[FilmT, Array, float], FilmT]
+"""again(film, x, error), the film with viscosities x from another one, with this relative error of its load or that of
+its tolerance if larger."""
 HeatedT = TypeVar("HeatedT", bound=Heated)
 
 Heating = Callable[[Solution, Any], HeatedT]
 """heating(solution, near): the temperatures of a film, from those of a film near it, which may be on another grid."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point of the iteration.
+
+    Attributes
+    ----------
+    fields : ln η_p, ln η_s and s at the nodes, shape (3, nx, ny).
+    inlet : temperature at the inlet, K; None without hot lubricant that enters again.
+    """
+
+    fields: Array
+    inlet: float | None = None
+
+    def minus(self, other: Self) -> Self:
+        """The difference of two points."""
+        entered = None if self.inlet is None or other.inlet is None else self.inlet - other.inlet
+        return replace(self, fields=self.fields - other.fields, inlet=entered)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,11 +158,12 @@ class Coupled(Generic[FilmT, HeatedT]):
 
 def coupled(
     film: FilmT,
-    again: Callable[[FilmT, Array], FilmT],
+    again: Again[FilmT],
     heating: Heating[HeatedT],
     *,
     near: HeatedT | None = None,
     tolerance: float = FIELD_TOLERANCE,
+    error: float = 0.0,
 ) -> Coupled[FilmT, HeatedT]:
     """Solve for the film whose viscosities are those of its own temperatures.
 
@@ -128,15 +173,18 @@ def coupled(
     less than that (:func:`roughfilm.rom.temperature.mean.mean_temperature`). Measured contractions are 0.01 to 0.1 in
     pads and 0.05 to 0.6 in journal bearings, up to an eccentricity of 0.95. The next x is that of Anderson's method,
     the combination of ``REMEMBERED`` earlier films with the least difference g(x) - x, or g(x) itself where the
-    combination is farther from it than x is.
+    combination is farther from it than x is. The temperature at the inlet is one more unknown of it, whose g is the
+    mixture of new and returning lubricant. Under a load the film of each x carries it to a part of the expected
+    difference g(x) - x, and the last film to the tolerance of the search.
 
     Parameters
     ----------
     film : a film, from whose viscosities the iteration starts.
-    again : again(film, x), the film with other viscosities from the state of another one.
+    again : again(film, x, error), the film with other viscosities from the state of another one.
     heating : heating(solution, near), the temperatures of a film.
     near : temperatures of a film near this one.
     tolerance : root mean square of g(x) - x over the film at which the iteration stops.
+    error : relative error of the load of the first film; 0 if it meets the tolerance of its search.
 
     Raises
     ------
@@ -158,12 +206,19 @@ def coupled(
             raise _runaway(hottest)
         small = changes[-1] <= tolerance and _size(rest) <= LARGEST_OVER_MEAN * tolerance
         if (small or _stalls(changes)) and heated.settled:
-            return Coupled(film=film, heated=heated, changes=tuple(changes), largest=_size(rest))
+            if error == 0:
+                return Coupled(film=film, heated=heated, changes=tuple(changes), largest=_size(rest))
+            error = 0.0
+            film = again(film, used, error)
+            heated = heating(film.solution, heated)
+            continue
         if small:
             heated = heating(film.solution, heated)
             continue
-        step = memory.following(used, following, areas) - used
-        film, heated = _stepped(film, heated, again, heating, (used, step), hottest)
+        error = _error_of_load(changes, tolerance)
+        point, image = _at_inlet(used, following, heated.inlet)
+        step = point, memory.following(point, image, areas)
+        film, heated = _stepped(film, heated, again, heating, step, error, hottest)
     raise ConvergenceError(
         f"temperature: the viscosity of the film and that at its temperatures differ by {changes[-1]:.1e} after "
         f"{MAX_FILMS} films, above the tolerance of {tolerance:.1e}; take more cells, or {RUNAWAY}",
@@ -172,29 +227,52 @@ def coupled(
     )
 
 
+def _error_of_load(changes: Sequence[float], tolerance: float) -> float:
+    """The relative error of the load of the next film; 0 if it is expected to be the last one."""
+    fall = min(changes[-1] / changes[-2], 1.0) if len(changes) > 1 and changes[-2] > 0 else FIRST_FALL
+    expected = fall * changes[-1]
+    return CARRIED * expected if expected > NEARLY * tolerance else 0.0
+
+
+def _at_inlet(used: Array, following: Array, inlet: Mixture | None) -> tuple[Point, Point]:
+    """A point of the iteration and its image."""
+    if inlet is None:
+        return Point(used), Point(following)
+    if inlet.response is not None:
+        following = following + (inlet.following - inlet.temperature) * inlet.response
+    return Point(used, inlet.temperature), Point(following, inlet.following)
+
+
 def _stepped(
     film: FilmT,
     heated: HeatedT,
-    again: Callable[[FilmT, Array], FilmT],
+    again: Again[FilmT],
     heating: Heating[HeatedT],
-    step: tuple[Array, Array],
+    step: tuple[Point, Point],
+    error: float,
     hottest: Sequence[float],
 ) -> tuple[FilmT, HeatedT]:
-    """The film with the viscosities x + d and its temperatures; with a part of d where there is no such film.
+    """The film with the next viscosities and its temperatures; with a part of the step where there is no such film.
 
-    Under a load a step from a cold film may go beyond the solution, so that nothing carries the load, or the
+    Under a load a step from a cold film may go beyond the solution, so that no film carries the load, or the
     friction of asperities is too large.
 
     Parameters
     ----------
-    step : x and d, shape (3, nx, ny).
+    step : the last point and the next one.
+    error : relative error of the load of the film.
     hottest : largest temperatures of the films before, K.
     """
-    used, change = step
+    last, following = step
     for halvings in range(MAX_HALVINGS + 1):
+        part = 1 / 2**halvings
+        near = heated
+        if heated.inlet is not None and following.inlet is not None and last.inlet is not None:
+            entering = last.inlet + part * (following.inlet - last.inlet)
+            near = replace(heated, inlet=replace(heated.inlet, temperature=entering, error=0.0))
         try:
-            found = again(film, used + change / 2**halvings)
-            temperatures = heating(found.solution, heated)
+            found = again(film, last.fields + part * (following.fields - last.fields), error)
+            temperatures = heating(found.solution, near)
         except (InputError, ConvergenceError):
             if halvings == MAX_HALVINGS:
                 raise
@@ -205,7 +283,7 @@ def _stepped(
 
 
 def _with_temperatures(
-    film: FilmT, again: Callable[[FilmT, Array], FilmT], heating: Heating[HeatedT], near: HeatedT | None
+    film: FilmT, again: Again[FilmT], heating: Heating[HeatedT], near: HeatedT | None
 ) -> tuple[FilmT, HeatedT]:
     """The first film and its temperatures, of less viscosity where too little lubricant flows for any temperature.
 
@@ -218,7 +296,7 @@ def _with_temperatures(
             return film, heating(film.solution, near)
         except ConvergenceError as error:
             first = first or error
-            film = again(film, own_logarithms(film.solution) - SOFTENING)
+            film = again(film, own_logarithms(film.solution) - SOFTENING, 0.0)
     assert first is not None
     raise first
 
@@ -239,11 +317,11 @@ def contraction(changes: Sequence[float]) -> float:
 
 def _runaway(hottest: Sequence[float]) -> ConvergenceError:
     """The answer that temperatures run away."""
-    first, last = hottest[0] - ZERO_CELSIUS, hottest[-1] - ZERO_CELSIUS
-    grew = f"grew from {first:.4g} to {last:.4g} degC" if len(hottest) > 1 else f"is {last:.4g} degC"
+    last = celsius(hottest[-1])
+    grew = f"grew from {celsius(hottest[0])} to {last}" if len(hottest) > 1 else f"is {last}"
     return ConvergenceError(
         f"temperature: thermal runaway, the greatest temperature of the film {grew}, above "
-        f"{HOTTEST - ZERO_CELSIUS:.4g} degC, where no lubricant is liquid; {RUNAWAY}",
+        f"{celsius(HOTTEST)}, where no lubricant is liquid; {RUNAWAY}",
         outcome=Outcome.DIVERGED,
         iterations=len(hottest),
     )
@@ -251,27 +329,39 @@ def _runaway(hottest: Sequence[float]) -> ConvergenceError:
 
 @dataclass(kw_only=True)
 class Memory:
-    """The last iterations of a fixed point x = g(x), x and g of shape (3, nx, ny)."""
+    """The last iterations of a fixed point x = g(x)."""
 
-    points: list[Array] = field(default_factory=list)
-    images: list[Array] = field(default_factory=list)
+    points: list[Point] = field(default_factory=list)
+    images: list[Point] = field(default_factory=list)
 
-    def following(self, point: Array, image: Array, weights: Array) -> Array:
+    def following(self, point: Point, image: Point, weights: Array) -> Point:
         """The next point by Anderson's method; ``weights``, shape (nx, ny), are those of the squares."""
         self.points = [*self.points[-REMEMBERED:], point]
         self.images = [*self.images[-REMEMBERED:], image]
-        rest = image - point
         if len(self.points) == 1:
             return image
-        some = tuple(slice(None, None, max(1, count // SAMPLES)) for count in weights.shape)
-        rests = [(other - one)[:, *some] for one, other in zip(self.points, self.images, strict=True)]
-        differences = np.stack([rests[-1] - one for one in rests[:-1]])
-        weighted = differences * weights[some]
-        normal = np.tensordot(weighted, differences, axes=((1, 2, 3), (1, 2, 3)))
-        wanted = np.tensordot(weighted, rests[-1], axes=((1, 2, 3), (0, 1, 2)))
-        shares = np.linalg.lstsq(normal, wanted, rcond=SINGULAR)[0]
-        correction = sum(share * (image - other) for share, other in zip(shares, self.images[:-1], strict=True))
-        return image if _size(correction) > _size(rest) else np.asarray(image - correction)
+        along, across = (slice(None, None, max(1, count // SAMPLES)) for count in weights.shape)
+        some = along, across
+        sampled = (weights[some] / weights[some].sum()).ravel()
+        rests = np.stack(
+            [_weighted(other.minus(one), some, sampled) for one, other in zip(self.points, self.images, strict=True)]
+        )
+        differences = rests[-1] - rests[:-1]
+        shares = np.linalg.lstsq(differences @ differences.T, differences @ rests[-1], rcond=SINGULAR)[0]
+        corrections = [image.minus(other) for other in self.images[:-1]]
+        correction = sum(share * one.fields for share, one in zip(shares, corrections, strict=True))
+        if _size(correction) > _size(image.fields - point.fields):
+            return image
+        if image.inlet is None:
+            return Point(image.fields - correction)
+        entered = sum(share * (one.inlet or 0.0) for share, one in zip(shares, corrections, strict=True))
+        return Point(image.fields - correction, image.inlet - entered)
+
+
+def _weighted(rest: Point, some: tuple[slice, slice], weights: Array) -> Array:
+    """The values of some nodes and of the inlet, whose sum of squares is weighted."""
+    at_nodes = (rest.fields[:, *some].reshape(len(rest.fields), -1) * np.sqrt(weights)).ravel()
+    return np.append(at_nodes, SOFTER_AT_INLET * (rest.inlet or 0.0))
 
 
 def _mean_size(rest: Array, areas: Array) -> float:

@@ -1,8 +1,11 @@
 """The films of a bearing with their temperatures: given, under a load, and with a wall that moves freely."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
+
+import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
@@ -12,6 +15,8 @@ from roughfilm.rom.bearing.free.solve import PlacedFilm, WithField
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState, mixed_problem
 from roughfilm.rom.bearing.thermal.field.coupling import (
     FIELD_TOLERANCE,
+    FIRST_ERROR,
+    Again,
     Coupled,
     FilmT,
     Heated,
@@ -75,6 +80,17 @@ class LastFilm:
         self.viscosities = in_scene(solution, own_logarithms(solution)) if varies else None
 
 
+def growth(solution: Solution, values: Array) -> float:
+    """The factor by which the load of a film grows with other viscosities, ln η_p first, shape (3, nx, ny).
+
+    Viscosities that change by one factor change the pressure by it; others are weighted by the pressure.
+    """
+    weights = solution.grid.areas * np.maximum(solution.state.pressure, 0.0)
+    total = float(weights.sum())
+    change = float((weights * (values[0] - own_logarithms(solution)[0])).sum()) / total if total > 0 else 0.0
+    return math.exp(change)
+
+
 @dataclass(frozen=True)
 class _Film:
     solution: Solution
@@ -117,7 +133,7 @@ class HeatedBearing:
         """
 
         def heated(solution: Solution) -> Solution:
-            def again(film: _Film, values: Array) -> _Film:
+            def again(film: _Film, values: Array, _error: float) -> _Film:
                 varied = nodal_field(film.solution, values)
                 return _Film(with_viscosities(film.solution, varied, tolerance=tolerance, ruptures=ruptures))
 
@@ -134,12 +150,14 @@ class HeatedBearing:
         def heated(films: SeparableBearing[Any], search: Search[Any]) -> AnyState:
             assert isinstance(films, AnyFilms)
 
-            def again(near: AnyState, values: Array) -> AnyState:
-                found: AnyState = search(_with_viscosities(films, in_scene(near.solution, values)), near)
+            def again(near: AnyState, values: Array, error: float) -> AnyState:
+                varied = _with_viscosities(films, in_scene(near.solution, values))
+                found: AnyState = search(varied, near, error=error, growth=growth(near.solution, values))
                 return found
 
-            first = search(_with_viscosities(films, self.last.viscosities), None)
-            film, solution = self._coupled(first, again)
+            error = 0.0 if self.last.heated is None else FIRST_ERROR
+            first = search(_with_viscosities(films, self.last.viscosities), None, error=error)
+            film, solution = self._coupled(first, again, error)
             loaded: AnyState = replace(film, solution=solution)
             return loaded
 
@@ -153,7 +171,7 @@ class HeatedBearing:
         """
 
         def heated(at: WithField) -> PlacedFilm:
-            def again(film: PlacedFilm, values: Array) -> PlacedFilm:
+            def again(film: PlacedFilm, values: Array, _error: float) -> PlacedFilm:
                 even = (values + values[..., ::-1]) / 2 if film.film.solved.halved else values
                 return at(in_scene(film.solution, even), film)
 
@@ -162,9 +180,9 @@ class HeatedBearing:
 
         return heated
 
-    def _coupled(self, first: FilmT, again: Callable[[FilmT, Array], FilmT]) -> tuple[FilmT, HeatedSolution]:
+    def _coupled(self, first: FilmT, again: Again[FilmT], error: float = 0.0) -> tuple[FilmT, HeatedSolution]:
         """The film that agrees with its temperatures, from a first one, and its solution with the temperatures."""
-        found = coupled(first, again, self.heating, near=self.last.heated, tolerance=self.tolerance)
+        found = coupled(first, again, self.heating, near=self.last.heated, tolerance=self.tolerance, error=error)
         solution = heated_solution(found.film.solution, found)
         self.last.keep(solution)
         return found.film, solution

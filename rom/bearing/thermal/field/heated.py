@@ -28,11 +28,14 @@ class Mixture:
     temperature : temperature at the inlet, K.
     error : difference of the mixture of new and hot lubricant from it, K.
     slope : change of the mixture with the temperature at the inlet, by what returns.
+    response : change of ln η_p, ln η_s and s at the nodes with the temperature at the inlet, 1/K, shape (3, nx, ny);
+        None if it is not known.
     """
 
     temperature: float
     error: float
     slope: float
+    response: Array | None = None
 
     @property
     def following(self) -> float:

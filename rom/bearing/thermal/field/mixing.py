@@ -1,7 +1,7 @@
 """The temperature of the lubricant that enters a film: new lubricant and hot lubricant from the film before."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
@@ -9,17 +9,19 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
-from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.field.coupling import HOTTEST
-from roughfilm.rom.bearing.thermal.field.heated import Mixture
+from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm, Mixture
+from roughfilm.rom.bearing.thermal.field.nodal import between_nodes, logarithms
 from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.cavitation.evaluation.flows import flow_along, node_balances
 from roughfilm.rom.cavitation.fluid import Viscosities
+from roughfilm.rom.cavitation.grid import gaps
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
+from roughfilm.rom.lubricants.thermal.law import celsius
 from roughfilm.rom.temperature.dissipation import dissipation, film_flows
 
 HeatedT = TypeVar("HeatedT")
@@ -31,12 +33,6 @@ COARSE_NODES = 2000
 """Largest number of nodes of a grid on which temperatures and mixture of each film are iterated to the end.
 
 On finer grids those of the first film without another one near it are.
-"""
-
-ROUGHLY_MIXED, FALL_OF_ERROR = 0.01, 0.1
-"""Error of the mixture of a film on a fine grid, K, and this error over the first one, at which its iteration stops.
-
-The mixture is that of a film that changes further; that of the last one is iterated to ``MIXED``.
 """
 
 LEAST_STEP = 0.01
@@ -114,20 +110,12 @@ def new_lubricant(scene: Bearing, solution: Solution, supplied: float) -> Array:
     temperature = np.full(grid.shape, supplied)
     at_inlet = scene.boundary.inlet.temperature
     if at_inlet is not None:
-        temperature[gap_nodes(solution) if shape.joined[0] else np.arange(grid.shape[0]) == 0] = at_inlet
+        for nodes in gaps(shape, grid) if shape.joined[0] else [0]:
+            temperature[nodes] = at_inlet
     for one, inflow in zip(scene.supply, solution.problem.inflows, strict=True):
         if one.temperature is not None:
             temperature[inflow.covers(x, y)] = one.temperature
     return temperature
-
-
-def gap_nodes(solution: Solution) -> NDArray[np.bool_]:
-    """Whether the nodes of each x lie in a gap between films or at its ends, shape (nx,)."""
-    grid, shape = solution.grid, solution.problem.shape
-    if not shape.idle:
-        return np.zeros(grid.shape[0], dtype=bool)
-    within = shape.is_idle(grid.x + grid.spacing_x / 2)
-    return np.asarray(within | np.roll(within, 1))
 
 
 def returning(scene: Bearing, solution: Solution, new: Array) -> Returning | None:
@@ -153,9 +141,9 @@ def returning(scene: Bearing, solution: Solution, new: Array) -> Returning | Non
 
 
 def replaced(scene: Bearing, solution: Solution, liquid: Liquid) -> Array:
-    """The heat transfer coefficient, W/(m² K), that stands for hot lubricant which new lubricant replaces in a groove.
+    """The heat transfer coefficient, W/(m² K), that stands for hot lubricant which new lubricant replaces in a supply.
 
-    Where lubricant flows from a film into a gap or a supply, the part 1 - ``carried_over`` of it is replaced: with its
+    Where lubricant flows from a film into a supply, the part 1 - ``carried_over`` of it is replaced: with its
     flow F and ρ c at the supply, a heat transfer F ρ c (1/carried_over - 1) lowers its temperature above that of the
     new lubricant by the factor ``carried_over``. Shape (nx, ny); 0 where nothing is replaced.
     """
@@ -163,7 +151,6 @@ def replaced(scene: Bearing, solution: Solution, liquid: Liquid) -> Array:
     covered = np.zeros(grid.shape, dtype=bool)
     if kept < 1:
         x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
-        covered[gap_nodes(solution)] = True
         for inflow in solution.problem.inflows:
             covered |= inflow.covers(x, y)
     if not covered.any():
@@ -181,15 +168,21 @@ def seen_from_inside(viscosities: Viscosities, solution: Solution) -> Viscositie
     feeds the sides. With the viscosity of what flows through it, films with new and with hot lubricant at the node
     would alternate; that of the node before, where both mix, changes with the flow without a jump.
     """
-    if solution.network.periodic[0] or not (node_balances(solution)[-1] > 0).any():
+    if not flows_back(solution):
         return viscosities
-
-    def inside(values: Array) -> Array:
-        return np.concatenate([values[:-1], values[-2:-1]])
-
     return Viscosities(
-        flow=inside(viscosities.flow), shear=inside(viscosities.shear), carried=inside(viscosities.carried)
+        flow=_inside(viscosities.flow), shear=_inside(viscosities.shear), carried=_inside(viscosities.carried)
     )
+
+
+def flows_back(solution: Solution) -> bool:
+    """Whether lubricant flows back into the end of a film."""
+    return not solution.network.periodic[0] and bool((node_balances(solution)[-1] > 0).any())
+
+
+def _inside(values: Array) -> Array:
+    """Values at the nodes, shape (nx, ny), with those before the end at the end."""
+    return np.concatenate([values[:-1], values[-2:-1]])
 
 
 def is_seen_from_inside(solution: Solution) -> bool:
@@ -216,25 +209,39 @@ def power_of_end(solution: Solution, warm: Array) -> Array | None:
     return power
 
 
+def mixture_of(near: HeatedFilm | None, solution: Solution) -> Mixture | None:
+    """The mixture at the inlet of a film near another one, with its response at the nodes of the latter."""
+    known = None if near is None else near.inlet
+    if near is None or known is None or known.response is None or known.response.shape[1:] == solution.grid.shape:
+        return known
+    x, y = np.meshgrid(solution.grid.x, solution.grid.y, indexing="ij")
+    found = between_nodes(known.response, near.grid, solution.problem.shape.joined, x.ravel(), y.ravel())
+    response = found.reshape(-1, *x.shape)
+    return replace(known, response=np.stack([_inside(one) for one in response]) if flows_back(solution) else response)
+
+
 def at_mixture(
     solve: Callable[[float, HeatedT | None], HeatedT],
     image: Callable[[HeatedT], float],
     first: Mixture,
     *,
-    roughly: bool,
+    viscosities: Callable[[HeatedT], Viscosities],
+    once: bool,
 ) -> tuple[HeatedT, Mixture]:
     """The temperatures of a film whose inlet has about the temperature of the mixture that they bring about.
 
     The heat that leaves grows by less than the heat that enters, since warmer lubricant is thinner, so that the mixture
     contracts by at most its share of hot lubricant and what stays in the film; the iteration extrapolates this slope.
-    On a fine grid few steps are enough, with the slope of a coarse one: the film changes with the mixture anyway.
+    On a fine grid the temperature at the inlet is an unknown of the iteration of film and temperatures
+    (:func:`roughfilm.rom.bearing.thermal.field.coupling.coupled`), with the slope of a coarse grid.
 
     Parameters
     ----------
     solve : solve(temperature, near), the temperatures of the film, K, for a temperature at the inlet.
     image : image(temperatures), the temperature of their mixture, K.
     first : mixture from which the iteration starts.
-    roughly : whether an error of ``ROUGHLY_MIXED``, or a part of the first one, is small enough; the slope stays.
+    viscosities : viscosities(temperatures), those of the next film.
+    once : whether the temperatures for the first temperature at the inlet are enough, whatever its error.
 
     Returns
     -------
@@ -246,24 +253,25 @@ def at_mixture(
     ConvergenceError
         If the mixture does not converge.
     """
-    inlet, slope, before, near, least = first.following, first.slope, None, None, MIXED
+    inlet, slope, response = first.following, first.slope, first.response
+    before: tuple[float, float, HeatedT] | None = None
+    near: HeatedT | None = None
     for _ in range(MAX_MIXTURES):
         near = solve(inlet, near)
         rest = image(near) - inlet
-        if roughly and before is None:
-            least = max(ROUGHLY_MIXED, FALL_OF_ERROR * abs(rest))
-        elif not roughly and before is not None and abs(inlet - before[0]) >= LEAST_STEP:
+        if not once and before is not None and abs(inlet - before[0]) >= LEAST_STEP:
             slope = min(max(1 + (rest - before[1]) / (inlet - before[0]), 0.0), STEEPEST)
-        mixture = Mixture(temperature=inlet, error=rest, slope=slope)
-        if abs(rest) <= least:
+            response = logarithms(viscosities(near)) - logarithms(viscosities(before[2]))
+            response /= inlet - before[0]
+        mixture = Mixture(temperature=inlet, error=rest, slope=slope, response=response)
+        if once or abs(rest) <= MIXED:
             return near, mixture
         if inlet > HOTTEST:
             break
-        before, inlet = (inlet, rest), mixture.following
+        before, inlet = (inlet, rest, near), mixture.following
     raise ConvergenceError(
         "temperature: thermal runaway, hot lubricant enters the film again and heats its inlet to "
-        f"{inlet - ZERO_CELSIUS:.4g} degC and above; lower heat.carried_over, or supply more new lubricant through "
-        "sides or supplies",
+        f"{celsius(inlet)} and above; lower heat.carried_over, or supply more new lubricant through sides or supplies",
         outcome=Outcome.DIVERGED,
         iterations=MAX_MIXTURES,
     )

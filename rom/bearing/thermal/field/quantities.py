@@ -12,10 +12,19 @@ from roughfilm.rom.bearing.thermal.field.asperity_friction import with_friction
 from roughfilm.rom.bearing.thermal.field.coupling import FIELD_TOLERANCE, Heating
 from roughfilm.rom.bearing.thermal.field.films import HeatedSolution
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
-from roughfilm.rom.bearing.thermal.field.hot_spots import circulating_uncertainty
+from roughfilm.rom.bearing.thermal.field.hot_spots import circulating_uncertainty, keeps_its_heat
 from roughfilm.rom.bearing.thermal.field.residual import iteration
 from roughfilm.rom.bearing.uncertainty import HOTTEST_PLACE
+from roughfilm.rom.cavitation.grid import film_areas
 from roughfilm.rom.cavitation.solve import Solution
+
+HIGHEST = "temperature_max"
+
+CIRCULATES = (
+    f"{HIGHEST}: unknown uncertainty, as it grows with the resolution: lubricant turns around the bore more than once "
+    "before it leaves, and gives off no heat; take across with heat.fixed_wall or heat.sliding_wall"
+)
+"""Warning about the largest temperature of lubricant that circulates."""
 
 SLOWEST = 0.9
 """Contraction above which the error that an iteration leaves is not extrapolated farther."""
@@ -44,7 +53,7 @@ class HeatedOutputs:
             iteration_uncertainties=iteration_uncertainties,
             warnings=self.warnings,
             details=details,
-            estimates=self.base.estimates,
+            estimates=(*self.base.estimates, HIGHEST),
         )
 
     def heated(self, solution: Solution) -> HeatedFilm:
@@ -109,16 +118,17 @@ class HeatedOutputs:
         temperature = self.heated(solution).temperature
         beyond = scene.lubricant.temperature_warnings(float(temperature.min()), float(temperature.max()))
         unsettled = apart if changes[-1] > FIELD_TOLERANCE else []
-        return [*self.base.warnings(scene, solution), *beyond, *unsettled]
+        circulates = isinstance(solution, HeatedSolution) and keeps_its_heat(solution)
+        return [*self.base.warnings(scene, solution), *beyond, *unsettled, *([CIRCULATES] if circulates else [])]
 
 
 def _quantities(solution: Solution, found: HeatedFilm) -> dict[str, Quantity]:
     """The temperatures, °C, and heat flows of a film."""
     grid, shape = solution.grid, solution.problem.shape
     i, j = int(np.abs(grid.x - found.place[0]).argmin()), int(np.abs(grid.y - found.place[1]).argmin())
-    areas = np.where(shape.is_idle(grid.x)[:, None], 0.0, grid.areas)
+    areas = film_areas(shape, grid)
     degrees = {
-        "temperature_max": found.highest,
+        HIGHEST: found.highest,
         "temperature_mean": float((areas * found.temperature).sum() / areas.sum()),
         "inlet_temperature": None if found.inlet is None else found.inlet.temperature,
         "outlet_temperature": found.outlet,
@@ -157,7 +167,7 @@ def iteration_uncertainties(levels: Sequence[Solution], quantities: Mapping[str,
     contraction, grid, thinning = min(solution.contraction, SLOWEST), solution.grid, _thinning(solution)
     left = solution.changes[-1] * max(contraction / (1 - contraction), 1.0)
     special = {
-        "temperature_max": solution.largest / thinning + circulating_uncertainty(levels),
+        HIGHEST: solution.largest / thinning + circulating_uncertainty(levels),
         "temperature_max_x": float(grid.spacing_x.max()),
         "temperature_max_y": float(grid.spacing_y.max()),
     }

@@ -9,12 +9,12 @@ from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.ladder import find, models
 from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.advice.laws import Grid, Law, Term, on_grid, table
-from roughfilm.rom.bearing.effects.viscosity import MARGIN, coarse_films, viscosity_omitted
+from roughfilm.rom.bearing.effects.viscosity import MARGIN, CoarseFilms, coarse_films, viscosity_omitted
 from roughfilm.rom.bearing.effects.waves import waves_omitted
 from roughfilm.rom.bearing.omission import omission
 from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.ladder.kind import kind_of_scene
-from roughfilm.rom.ladder.model import best_for
+from roughfilm.rom.ladder.model import Effect, best_for
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.temperature.closed_forms.slider import adiabatic_slider
@@ -175,3 +175,18 @@ def test_the_cheapest_model_that_is_accurate_enough(speed, within, enough):
     assert advice.chosen.model in enough
     load = exact(speed, COEFFICIENT).load
     assert abs(advice.result["load_per_width"].value - load) <= within * load
+
+
+@pytest.mark.parametrize(
+    ("kept", "words"),
+    [
+        ((), ["shear thinning", "heating"]),
+        ((Effect.SHEAR_THINNING,), ["heating"]),
+        ((Effect.HEATING,), ["shear thinning", "the temperature over the film and across it"]),
+        ((Effect.HEATING, Effect.TEMPERATURE_FIELD), ["shear thinning", "the temperature across the film"]),
+        ((Effect.SHEAR_THINNING, Effect.HEATING), ["the temperature over the film and across it"]),
+    ],
+)
+def test_each_effect_that_is_left_out_is_named(kept, words):
+    films = CoarseFilms(models=(), results={}, failures={}, smooth=False, absent=frozenset())
+    assert films.left_out(find("bearing", "across"), replace(ISOTHERMAL, keeps=frozenset(kept))) == words

@@ -132,3 +132,17 @@ def test_it_begins_at_a_given_temperature_and_goes_on_from_its_file(tmp_path: Pa
 def test_a_first_temperature_needs_a_time_constant():
     with pytest.raises(InputError, match=r"body.start.temperature: .*heat.time_constant"):
         marched(**LOADED, body={"start": {"temperature": "70 degC"}}, end=0.01)
+
+
+@pytest.mark.parametrize("cells", [(8, 8), (16, 8)])
+def test_a_squeezed_film_heats_by_the_mean_pressure_over_the_heat_of_its_volume(cells):
+    """The walls displace V A on any grid, whose heat is their power ∫ p V dA: ρ c (T_out - T0) = p_mean.
+
+    The temperature of the film is the mean of T0 and T_out.
+    """
+    pad = {"shape": "parallel", "length": "20 mm", "width": "20 mm", "film": "20 um"}
+    scene = scene_of(pad, oil=STIFF, heat=SLOW, motion={"speed": "0 m/s", "approach": "20 mm/s"})
+    march = march_bearing(scene, end=1e-4, steps=4, cells=cells, uncertain=False)
+    mean = march["film_force"] / (20e-3 * 20e-3)
+    assert mean.min() > 10e6
+    np.testing.assert_allclose(march["balanced_temperature"] - COLD, mean / (2 * 870 * 2000), rtol=1e-6)

@@ -136,6 +136,13 @@ def test_a_heavy_rotor_whirls_at_about_half_of_its_speed_and_a_light_one_does_no
     assert np.ptp(heavy["eccentricity_x"][late]) > 3 * np.ptp(light["eccentricity_x"][light.time > 0.03])
 
 
+def test_a_shaft_that_sinks_at_rest_does_not_whirl():
+    scene = bearing(motion={"speed": "0 rpm"}, load={"force": "100 N"}, body={"mass": "1 kg"})
+    march = march_bearing(scene, end=0.05, steps=20, cells=CELLS, uncertain=False)
+    assert march["eccentricity_y"][-1] < march["eccentricity_y"][-5]
+    assert march.state.startswith("a motion that")
+
+
 def test_a_long_plate_that_closes_without_sliding_follows_the_closed_form():
     """Between parallel plates of length L, W = η L³ V/h³ per width: 1/h² = 1/h₀² + 2 W t/(η L³)."""
     length, film, force, viscosity = 0.02, 50e-6, 2e3, 0.1

@@ -22,6 +22,7 @@ OIL = {
     "thermoviscosity": {"law": "exponential", "temperature_coefficient": f"{BETA} 1/K"},
 }
 BORE = {"shape": "lobes", "radius": "25 mm", "clearance": "30 um", "width": "40 mm"}
+WIDE = {name: value for name, value in BORE.items() if name != "width"}
 JOURNAL = {"shape": "journal", "radius": "25 mm", "clearance": "30 um", "width": "40 mm"}
 WEDGE = {"shape": "linear", "length": "50 mm", "width": "40 mm", "film": "20 um", "rise": "20 um"}
 RECESS = {"kind": "pocket", "x": "25 mm", "length": "20 mm", "extent": "20 mm", "depth": "1 mm", "pressure": "3 MPa"}
@@ -208,8 +209,7 @@ def test_each_gap_mixes_what_its_lobes_discharge_and_take_in(carried_over):
 
     The smaller flow enters the other lobe with new lubricant, and the excess of the larger one leaves.
     """
-    bore = {name: value for name, value in BORE.items() if name != "width"}
-    bore |= {"arc": "150 deg", "eccentricity": [0.2, -0.3]}
+    bore = WIDE | {"arc": "150 deg", "eccentricity": [0.2, -0.3]}
     plain, flows = find("bearing", "reynolds_cavitating"), []
     for first in ("15 deg", "195 deg"):
         alone = values(solved(bore | {"lobes": 1, "first": first}, model=plain, cells=64))
@@ -227,19 +227,34 @@ def test_each_gap_mixes_what_its_lobes_discharge_and_take_in(carried_over):
 @pytest.mark.parametrize(
     "bearing",
     [
+        {"geometry": WIDE | {"lobes": 2, "arc": "150 deg", "eccentricity": [0.2, -0.3]}},
         {"geometry": BORE | {"lobes": 4, "arc": "80 deg", "eccentricity": [0.1, -0.1]}},
         {
             "geometry": BORE | {"lobes": 4, "arc": "80 deg", "pivot": 0.5, "preload": 0.3, "first": "-45 deg"},
             "load": {"force": "1 kN"},
         },
     ],
-    ids=["lobes", "tilting pads"],
+    ids=["wide lobes", "lobes", "tilting pads"],
 )
 def test_lobes_and_pads_have_about_the_mean_temperature_of_the_model_with_a_field(bearing):
-    """One balance for all gaps together made them 5 to 15 K hotter."""
+    """The mean is the higher one, as lubricant leaves the film colder than it enters the next one."""
     mean = values(solved(**bearing, model=find("bearing", "adiabatic")))["temperature_mean"]
     assert mean > COLD + 20
-    assert values(solved(**bearing))["effective_temperature"] == pytest.approx(mean, abs=2.0)
+    below = (mean - values(solved(**bearing))["effective_temperature"]) / (mean - COLD)
+    assert 0 < below < 0.15
+
+
+@pytest.mark.parametrize("carried_over", [1.0, 0.6])
+def test_gaps_renew_as_much_lubricant_as_in_the_model_with_a_field(carried_over):
+    """In a film of one viscosity both have the same flows; what leaves takes the heat away, Q ρ c (T_out - T_0)."""
+    constant = {"thermoviscosity": {"law": "exponential", "temperature_coefficient": "0 1/K"}}
+    lobes = {"geometry": WIDE | {"lobes": 2, "arc": "150 deg", "eccentricity": [0.2, -0.3]}, "oil": constant}
+    renewed = []
+    for model in (MODEL, find("bearing", "adiabatic")):
+        found = values(solved(**lobes, model=model, heat={"carried_over": carried_over}))
+        rise = found["outlet_temperature"] - COLD
+        renewed.append(found["heat_to_lubricant_per_width"] / (DENSITY * CAPACITY * rise))
+    assert renewed[1] == pytest.approx(renewed[0], rel=1e-6)
 
 
 def test_a_capillary_has_the_viscosity_of_its_supply():
@@ -298,7 +313,7 @@ def test_asperities_heat_the_film_too():
 def test_thermal_runaway_is_one_line():
     """A viscosity that grows with temperature heats the film without end."""
     oil = {"thermoviscosity": {"law": "exponential", "temperature_coefficient": "-0.1 1/K"}}
-    with pytest.raises(InputError, match=r"^heat_balance: thermal runaway: .* friction heats the film to [^\n]*$"):
+    with pytest.raises(InputError, match=r"^heat_balance: thermal runaway: friction heats the film further [^\n]*$"):
         solved(WEDGE, oil=oil)
 
 
@@ -343,7 +358,7 @@ def test_incomplete_heat_transfer_is_refused(heat, geometry, match):
 def test_entering_lubricant_has_a_temperature_only_with_a_law(tables, place):
     cold = {name: value for name, value in OIL.items() if name != "thermoviscosity"}
     entries = {"name": "cold", "kind": "bearing", "geometry": WEDGE, "motion": {"speed": "1 m/s"}} | tables
-    with pytest.raises(InputError, match=rf"{place}.temperature: got one, but .* without lubricant.thermoviscosity"):
+    with pytest.raises(InputError, match=rf"{place}.temperature: got a temperature, but .* without lubricant.thermo"):
         read_scene(entries | {"lubricant": cold})
     assert read_scene(entries | {"lubricant": OIL}).isothermal().lubricant.thermoviscosity is None
 

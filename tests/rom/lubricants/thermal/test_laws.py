@@ -187,14 +187,39 @@ def test_valid_ranges():
     assert law("iso_vg").valid() == law("walther", {"points": law("iso_vg").walther.model_dump()["points"]}).valid()
 
 
+@pytest.mark.parametrize("name", ENTRIES)
+def test_each_law_takes_a_given_range(name):
+    given = {**ENTRIES[name], "valid_from": "41 degC", "valid_to": "62 degC"}
+    one, before = law(name, given), law(name)
+    state = (SUPPLIED,) if isinstance(one, AnchoredLaw) else ()
+    assert one.valid(*state) == pytest.approx((314.15, 335.15))
+    assert one.viscosity(np.array([320.0]), *state) == before.viscosity(np.array([320.0]), *state)
+    with pytest.raises(ValueError, match=r"valid_to: got 40 °C; it must be above valid_from, 41 °C"):
+        law(name, given | {"valid_to": "40 degC"})
+
+
 @pytest.mark.parametrize(
     ("name", "entries", "words"),
     [
+        (
+            "vogel",
+            {"a": "1 mPas", "b": "900 degC", "c": "-100 degC"},
+            "got '900 degC', a temperature in degrees; it is",
+        ),
+        (
+            "exponential",
+            {"temperature_coefficient": "30 1/K"},
+            "got 30 1/K; it must be at most 1 1/K in size",
+        ),
         ("vogel", {}, "got no constant; give a, b and c, or three points"),
         ("vogel", {"a": "1 mPas", "b": "900 K"}, "got a and b; give a, b and c, or three points"),
         ("vogel", {"c": "170 K", "points": ROWS[1:]}, "points: got them and c"),
         ("vogel", {"points": [ROWS[0], ["40 degC", "50 mPas"], ROWS[3]]}, "must fall more slowly"),
-        ("vogel", {"points": [ROWS[1], ROWS[0], ROWS[2]]}, "got 20 °C, 0.07 as point 2 after 40 °C, 0.028"),
+        (
+            "vogel",
+            {"points": [ROWS[1], ROWS[0], ROWS[2]]},
+            "points: got 20 °C, 0.07 Pa s at row 2 after 40 °C, 0.028 Pa s",
+        ),
         (
             "vogel",
             {**ENTRIES["vogel by constants"], "valid_to": "-150 degC"},
@@ -207,7 +232,7 @@ def test_valid_ranges():
         ("iso_vg", {"grade": 32, "viscosity_index": 900}, "viscosity_index: got 900; it must be 0 to 500"),
         ("tabulated", {"table": [*ROWS[:1], ["40 degC", "28 cSt"]]}, "got '28 cSt', a kinematic viscosity; write mPa"),
         ("tabulated", {"table": ROWS[:1]}, "at least 2 items"),
-        ("tabulated", {"table": [ROWS[1], ROWS[0]]}, "table: got 20 °C, 0.07 as point 2"),
+        ("tabulated", {"table": [ROWS[1], ROWS[0]]}, "table: got 20 °C, 0.07 Pa s at row 2"),
         ("tabulated", {"table": "nowhere.csv"}, r"nowhere\.csv.*no such file"),
         ("exponential", {"temperature_coefficient": "30 K"}, "wrong dimension"),
     ],
@@ -215,6 +240,13 @@ def test_valid_ranges():
 def test_wrong_input_is_refused(name, entries, words):
     with pytest.raises(ValueError, match=words):
         THERMAL_LAWS[name].model_validate({"law": name, **entries})
+
+
+def test_a_table_in_fahrenheit_is_refused(tmp_path):
+    path = tmp_path / "viscosity.csv"
+    path.write_text("temperature (degF), viscosity (cP)\n68, 70\n104, 28\n", encoding="utf-8")
+    with pytest.raises(ValueError, match=r"line 1: got a temperature in 'degF'; convert it to degC or K"):
+        law("tabulated", {"table": str(path)})
 
 
 @pytest.mark.parametrize("name", ["vogel", "vogel by constants", "roelands", "walther"])

@@ -94,14 +94,41 @@ def test_bad_input_is_refused_in_one_line(words, message, tmp_path):
     assert "Traceback" not in done.stderr
 
 
-def test_heating_is_left_out_with_a_warning(tmp_path):
+@pytest.fixture(scope="module")
+def warm(tmp_path_factory):
+    """The grooved journal with an oil that has a temperature."""
     text = SCENE.read_text(encoding="utf-8")
     begin, end = text.index("[lubricant]"), text.index("[", text.index("[lubricant]") + 1)
-    warm = tmp_path / "warm.toml"
-    warm.write_text(f'{text[:begin]}[lubricant]\noil = "ISO VG 32"\ntemperature = "45 degC"\n{text[end:]}')
+    scene = tmp_path_factory.mktemp("warm") / "warm.toml"
+    scene.write_text(f'{text[:begin]}[lubricant]\noil = "ISO VG 32"\ntemperature = "45 degC"\n{text[end:]}')
+    return scene
+
+
+def test_the_temperature_of_the_film_has_a_column_a_figure_and_stands_in_the_answer(warm, tmp_path):
     done = run("--speeds", "3000rpm", "--loads", "5kN", "--out", tmp_path / "out", scene=warm)
     assert done.exit_code == 0, done.stderr
-    assert "leave heating out" in " ".join((done.stdout + done.stderr).split())
+    assert "film, °C" in done.stdout
+    assert "film at " in " ".join((done.stdout + done.stderr).split())
+    entries = json.loads((tmp_path / "out" / "dynamics.json").read_text(encoding="utf-8"))
+    (point,) = entries["curves"][0]["points"]
+    assert point["outlet_temperature"] > point["temperature"] > 46
+    assert point["uncertainty"]["temperature"] > 0
+    assert entries["units"]["temperature"] == "degC"
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "Temperature against speed" in page
+    assert "at the one temperature at which its heat is balanced" in page
+
+
+def test_temperatures_are_left_out_at_request_and_where_they_cannot_be_computed_with_a_warning(warm, tmp_path):
+    options = ("--speeds", "3000rpm", "--loads", "5kN")
+    cold = run("--isothermal", *options, "--out", tmp_path / "cold", scene=warm)
+    assert cold.exit_code == 0, cold.stderr
+    assert "film, °C" not in cold.stdout
+    law = ("temperature=40degC", "thermoviscosity.law=exponential", "thermoviscosity.temperature_coefficient=0.03/K")
+    words = [word for entry in law for word in ("--set", f"lubricant.{entry}")]
+    lacking = run(*words, *options, "--out", tmp_path / "lacking")
+    assert lacking.exit_code == 0, lacking.stderr
+    assert "lubricant.density: missing" in " ".join((lacking.stdout + lacking.stderr).split())
 
 
 def test_a_shape_whose_wall_is_given_is_refused(tmp_path):

@@ -71,6 +71,24 @@ def test_walls_part_between_the_points_that_touch_and_those_that_do_not(swept):
     assert lifts[1] > lifts[0]
 
 
+def test_spots_in_contact_have_a_flash_temperature_with_a_range(swept, tmp_path):
+    heat = {"conductivity": "46 W/(m*K)", "density": "7850 kg/m^3", "heat_capacity": "460 J/(kg*K)"}
+    words = [word for key, value in heat.items() for word in ("--set", f"asperities.solid_heat.{key}={value}")]
+    table, options = swept[0] / "table.h5", ("--loads", "1MPa", "--speeds", "0,20rpm")
+    done = run("--out", tmp_path / "out", "--table", table, *options, *words)
+    assert done.exit_code == 0, done.stderr
+    assert "spots hotter by, K" in " ".join(done.stdout.split())
+    assert "flash_temperature: a spot has" in " ".join((done.stdout + done.stderr).split())
+    entries = json.loads((tmp_path / "out" / "stribeck.json").read_text(encoding="utf-8"))
+    rest, slow = entries["curves"][0]["points"]
+    assert rest["flash_temperature"] == 0
+    assert 0 < slow["flash_temperature_low"] <= slow["flash_temperature"] < slow["flash_temperature_high"]
+    assert entries["units"]["flash_temperature"] == "K"
+    greatest = entries["quantities"]["greatest flash temperature at 1 MPa"]
+    assert (greatest["value"], greatest["high"]) == (slow["flash_temperature"], slow["flash_temperature_high"])
+    assert "spots<br>in contact<br>hotter by" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
 def test_files_hold_what_was_printed(swept):
     out, entries = swept
     points = [point for curve in entries["curves"] for point in curve["points"]]

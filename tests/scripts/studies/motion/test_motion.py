@@ -43,6 +43,12 @@ def test_temperatures_and_heat_are_judged_too():
     assert {one.model for one in found.found} == {"adiabatic"}
 
 
+def test_stiffness_is_judged_with_the_temperature_of_its_film():
+    found = counted_of(count_scene("pad", 1, "heated_dynamics", 32))
+    assert not found.refused
+    assert {"stiffness", "damping", "temperature", "outlet_temperature"} <= {one.quantity for one in found.found}
+
+
 def test_values_of_second_order_are_extrapolated_to_their_limit():
     """The grid between has another shape, so that its error bounds that of the truth."""
     levels = [{"load": 5 + 3 / along**2 + 2 / across**2} for along, across in RATIOS]

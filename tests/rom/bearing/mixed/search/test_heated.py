@@ -36,7 +36,11 @@ ROUGH = {
             "correlation_length": "30 um",
         },
     },
-    "asperities": {"friction": 0.1, "solid": {"modulus": "210 GPa", "poisson": 0.3, "hardness": "3 GPa"}},
+    "asperities": {
+        "friction": 0.1,
+        "solid": {"modulus": "210 GPa", "poisson": 0.3, "hardness": "3 GPa"},
+        "solid_heat": {"conductivity": "46 W/(m*K)", "density": "7850 kg/m^3", "heat_capacity": "460 J/(kg*K)"},
+    },
     "heat": {"heat_transfer": "500 W/(m^2*K)", "area": "0.02 m^2"},
 }
 
@@ -103,12 +107,26 @@ def test_asperities_heat_the_film_too(rough):
     assert math.isfinite(hot.lift_off.uncertainty)
 
 
+def test_spots_in_contact_are_as_hot_as_by_the_model_and_cold_where_nothing_slides_or_touches(rough):
+    _, hot, cold = rough
+    rest, mixed, parted = hot.points
+    assert (rest.flash_temperature, parted.flash_temperature_high) == (0.0, 0.0)
+    assert 0 < mixed.flash_temperature_low <= mixed.flash_temperature < mixed.flash_temperature_high
+    film = find("bearing", "mixed").solve(
+        scene_of(PAD, speed="0.2 m/s", **ROUGH | {"load": {"pressure": "3 MPa"}}).isothermal(),
+        Request(resolution=CELLS),
+    )
+    for name in ("flash_temperature", "flash_temperature_low", "flash_temperature_high"):
+        assert getattr(cold.points[1], name) == pytest.approx(film[name].value, rel=1e-3)
+
+
 def test_the_file_keeps_temperatures(rough, tmp_path: Path):
     scene, hot, cold = rough
     inputs: Inputs = curve_inputs(scene, None, CELLS)
     save_points(tmp_path / "hot.h5", inputs, hot.points)
     assert known_points(tmp_path / "hot.h5", inputs) == hot.points
     write_csv(tmp_path / "hot.csv", [hot])
-    assert "temperature (degC), outlet_temperature (degC)" in (tmp_path / "hot.csv").read_text().splitlines()[0]
+    heads = (tmp_path / "hot.csv").read_text().splitlines()[0]
+    assert "temperature (degC), outlet_temperature (degC), flash_temperature (K)" in heads
     assert "temperature" not in numbers_of(cold.points)
     assert curve_inputs(scene.isothermal(), None, CELLS).digest != inputs.digest

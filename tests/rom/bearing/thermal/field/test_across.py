@@ -17,6 +17,8 @@ LUBRICANT = {
 }
 WEDGE = {"shape": "linear", "length": "0.1 m", "width": "0.1 m", "film": "40 um", "rise": "40 um"}
 JOURNAL = {"shape": "journal", "radius": "50 mm", "width": "80 mm", "clearance": "60 um", "eccentricity": 0.7}
+BORE = {"shape": "lobes", "radius": "50 mm", "width": "80 mm", "clearance": "60 um", "eccentricity": [0.2, 0.1]}
+GROOVE = {"kind": "groove", "angle": "90 deg", "length": "8 mm", "extent": "40 mm", "pressure": "0.2 MPa"}
 LOBES = {"shape": "lobes", "lobes": 3, "arc": "100 deg", "radius": "50 mm", "width": "80 mm", "clearance": "60 um"}
 STEEL = {"conductivity": "45 W/(m*K)"}
 CONDUCTING = {"kind": "conducting", "thickness": "20 mm", **STEEL, "heat_transfer": "200 W/(m^2*K)"}
@@ -130,10 +132,14 @@ def test_a_constant_viscosity_gives_the_isothermal_pressure():
             {"lubricant": {key: one for key, one in LUBRICANT.items() if key != "conductivity"}},
             "lubricant.conductivity",
         ),
-        ({"geometry": LOBES | {"eccentricity": [0.2, 0.1]}, "heat": {"carried_over": 0.8}}, "carried_over is 0.8"),
+        ({"geometry": BORE, "supply": [GROOVE], "heat": {"carried_over": 0.8}}, "carried_over is 0.8 behind supplies"),
     ],
 )
 def test_the_model_says_what_it_needs(change, words):
     fits = ACROSS.applies(scene(**{"geometry": WEDGE, **change}))
     assert not fits.applies
     assert words in fits.reason
+
+
+def test_gaps_may_carry_a_part_of_the_hot_lubricant_over():
+    assert ACROSS.applies(scene(LOBES | {"eccentricity": [0.2, 0.1]}, heat={"carried_over": 0.5})).applies

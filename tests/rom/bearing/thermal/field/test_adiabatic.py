@@ -207,6 +207,29 @@ def test_lobes_under_a_load_heat_and_come_closer():
     assert hot.numerics.details["energy_imbalance"] < 1e-8
 
 
+@pytest.mark.parametrize("carried_over", [1.0, 0.6])
+def test_wide_lobes_heat_as_their_arcs_do_alone_with_the_mixture_at_their_inlets(carried_over):
+    """Each arc alone takes in c Q_out of the other one, at most all of Q_in, at its temperature, and new lubricant."""
+    bore = {"shape": "lobes", "radius": "50 mm", "clearance": "60 um", "arc": "150 deg", "eccentricity": [0.2, -0.4]}
+    heated, inlets = {}, [SUPPLIED + 10.0, SUPPLIED + 10.0]
+    for _ in range(8):
+        for arc in (0, 1):
+            alone = bore | {"lobes": 1, "first": f"{20 + 180 * arc} deg"}
+            inlet = {"boundary": {"inlet": {"temperature": f"{inlets[arc]!r} degC"}}, "heat": {"carried_over": 0}}
+            heated[arc] = solved(scene(alone, "5 m/s", **inlet), 40)
+            flow = value(heated[arc], "inlet_flow_per_width")
+            if arc or len(heated) > 1:
+                before = value(heated[1 - arc], "inlet_flow_per_width")
+                hot = value(heated[arc], "outlet_temperature")
+                inlets[1 - arc] = SUPPLIED + min(carried_over * flow, before) / before * (hot - SUPPLIED)
+    both = solved(scene(bore | {"lobes": 2, "first": "20 deg"}, "5 m/s", heat={"carried_over": carried_over}), 96)
+    highest = max(value(one, "temperature_max") for one in heated.values())
+    assert min(inlets) > SUPPLIED + 3
+    assert value(both, "temperature_max") == pytest.approx(highest, abs=0.2)
+    for name in ("friction_per_width", "heat_generated_per_width", "inlet_flow_per_width"):
+        assert value(both, name) == pytest.approx(sum(value(one, name) for one in heated.values()), rel=1e-2), name
+
+
 def test_tilting_pads_have_temperatures():
     pads = {**LOBES, "lobes": 4, "arc": "80 deg", "preload": 0.3, "pivot": 0.5}
     found = solved(scene(pads, load={"force": "10 kN"}), 32)
@@ -247,6 +270,15 @@ def test_a_full_bore_whose_lubricant_circulates_has_temperatures(viscosity):
     temperature = hot.fields["temperature"].values
     np.testing.assert_allclose(temperature, temperature[:, ::-1], atol=0.1)
     assert temperature.min() >= SUPPLIED - 0.1
+    assert hot.quantities["temperature_max"].uncertainty is None
+    assert any("temperature_max: unknown uncertainty" in one for one in hot.warnings)
+
+
+def test_a_full_bore_through_which_lubricant_flows_has_a_highest_temperature():
+    """What enters through one side leaves through the other one in less than a turn."""
+    hot = solved(scene(BORE, "2 m/s", boundary={"sides": {"low": "2 MPa"}}), 24)
+    assert hot.quantities["temperature_max"].uncertainty is not None
+    assert not any("turns around" in one for one in hot.warnings)
 
 
 def test_a_supply_at_both_ends_feeds_the_sides():

@@ -54,7 +54,7 @@ def test_a_hot_film_leaves_more_of_the_load_to_the_asperities(tips):
 
 
 def test_asperities_that_a_hot_film_leaves_too_much_to_run_away_in_one_line(tips):
-    with pytest.raises(ConvergenceError, match=r"thermal runaway, .* grew from .* degC") as caught:
+    with pytest.raises(ConvergenceError, match=r"thermal runaway, .* grew from .* °C") as caught:
         solved(hot(tips, load={"pressure": "1.5 MPa"}))
     assert "\n" not in str(caught.value)
 

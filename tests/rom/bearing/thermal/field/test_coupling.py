@@ -1,6 +1,6 @@
 """The fixed point of film and temperature, with temperatures that do not come from an energy equation."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -9,13 +9,14 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.bearing.thermal.field.coupling import Coupled, coupled
 from roughfilm.rom.bearing.thermal.field.films import HeatedBearing, HeatedSolution
+from roughfilm.rom.bearing.thermal.field.heated import Mixture
 from roughfilm.rom.bearing.thermal.field.nodal import in_scene, logarithms, nodal_field
 from roughfilm.rom.bearing.thermal.field.residual import residual_of
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.shape import Shape
-from roughfilm.rom.cavitation.solve import Solution, solve
+from roughfilm.rom.cavitation.solve import Solution, solve, with_viscosities
 
 VISCOSITY, SPEED, LENGTH, FILM = 0.05, 3.0, 0.1, 4e-5
 
@@ -26,6 +27,7 @@ class GivenTemperature:
 
     temperature: Array
     settled: bool = True
+    inlet: Mixture | None = None
 
     @property
     def viscosities(self) -> Viscosities:
@@ -114,7 +116,7 @@ def of_rule(rule) -> Coupled:
     """The fixed point of a rule for the temperature over ln(η/η₀) of a film."""
     plain = solve(wedge(), (8, 8))
 
-    def again(film: Number, values: Array) -> Number:
+    def again(film: Number, values: Array, _error: float) -> Number:
         eta = np.exp(values[0])
         problem = Problem(
             **{**vars(film.solution.problem), "at_nodes": Viscosities(flow=eta, shear=eta, carried=values[2])}
@@ -138,8 +140,61 @@ def test_rules_with_any_slope_converge(slope):
     assert len(found.changes) < 12
 
 
+@dataclass(frozen=True)
+class Loaded:
+    """A film whose load has an error, as a search that stops early leaves it."""
+
+    solution: Solution
+    error: float
+
+
+def test_the_last_film_carries_its_load_to_the_tolerance_of_the_search():
+    """Films that change further carry it to a part of their change, the last one with an error of 0."""
+    asked: list[float] = []
+
+    def again(film: Loaded, values: Array, error: float) -> Loaded:
+        asked.append(error)
+        varied = nodal_field(film.solution, values)
+        return Loaded(with_viscosities(film.solution, varied, tolerance=1e-11, ruptures=True), error)
+
+    found = coupled(Loaded(solve(wedge(), (24, 24)), 0.01), again, by_pressure, error=0.01)
+    assert found.film.error == asked[-1] == 0
+    assert 0 < asked[0] < found.changes[0]
+    np.testing.assert_array_less(found.changes[-1], 2e-5)
+
+
+def at_inlet(response: float) -> Coupled:
+    """Films of the temperature T of their inlet, whose mixture has 320 K + 0.6 (T - 320 K) + 20 K ln(η/η₀).
+
+    With ln(η/η₀) = -0.03 (T - 300 K), T is that of its own mixture where 0.4 (T - 320 K) = -0.6 (T - 300 K).
+    """
+    plain = solve(wedge(), (8, 8))
+
+    def again(film: Number, values: Array, _error: float) -> Number:
+        eta = np.exp(values[0])
+        own = Viscosities(flow=eta, shear=eta, carried=values[2])
+        return Number(replace(film.solution, problem=replace(film.solution.problem, at_nodes=own)))
+
+    def heating(solution: Solution, near: GivenTemperature | None) -> GivenTemperature:
+        own, shape = solution.problem.at_nodes, solution.grid.shape
+        thinned = 0.0 if own is None else float(np.log(own.flow / VISCOSITY).mean())
+        temperature = 320.0 if near is None else near.inlet.following
+        error = 320 + 0.6 * (temperature - 320) + 20 * thinned - temperature
+        field = None if response == 0 else np.stack([np.full(shape, response)] * 2 + [np.zeros(shape)])
+        mixture = Mixture(temperature=temperature, error=error, slope=0.6, response=field)
+        return GivenTemperature(np.full(shape, temperature), settled=abs(error) < 1e-4, inlet=mixture)
+
+    return coupled(Number(plain), again, heating, tolerance=1e-9)
+
+
+@pytest.mark.parametrize("response", [0.0, -0.03])
+def test_the_temperature_at_the_inlet_is_found_with_the_film(response):
+    found = at_inlet(response)
+    np.testing.assert_allclose(found.heated.temperature, 308, atol=1e-3)
+
+
 def test_temperatures_that_run_away_end_in_one_line():
-    with pytest.raises(ConvergenceError, match=r"thermal runaway.* grew from .* to .* degC, above 500 degC") as caught:
+    with pytest.raises(ConvergenceError, match=r"thermal runaway.* grew from .* to .* °C, above 500 °C") as caught:
         of_rule(lambda _, before: np.full((9, 9), 320.0) if before is None else 1.1 * before)
     assert caught.value.outcome is Outcome.DIVERGED
     assert "\n" not in str(caught.value)
