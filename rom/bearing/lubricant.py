@@ -279,6 +279,16 @@ class BearingLubricant(Fluid):
         }
         return self.model_copy(update=update)
 
+    @property
+    def left_out_heat(self) -> list[str]:
+        """A warning that heat is left out of a film whose viscosity depends on temperature, as a key is missing."""
+        if self.thermoviscosity is None or not self.lacking:
+            return []
+        return [
+            f"lubricant.{self.lacking[0]}: missing, so that all films have the temperature of the supplied lubricant; "
+            "add it for the heat of the film, or name an oil"
+        ]
+
     def temperature_warnings(self, lowest: float, highest: float) -> list[str]:
         """A warning if temperatures, K, lie outside of the valid range of the law of the viscosity."""
         law = self.thermoviscosity
