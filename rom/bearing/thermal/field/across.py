@@ -13,7 +13,7 @@ from roughfilm.rom.bearing.thermal.field.asperity_friction import asperity_frict
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.field.mixing import (
     COARSE_NODES,
-    MIXED,
+    SETTLED,
     at_mixture,
     mixture_of,
     new_lubricant,
@@ -134,7 +134,7 @@ class BetweenWalls:
                 "fixed_wall_temperature": found.fixed_wall.temperature,
             },
             start=found,
-            settled=found.settled and (mixture is None or abs(mixture.error) <= MIXED),
+            settled=found.settled and (mixture is None or abs(mixture.error) <= SETTLED),
         )
 
 

@@ -12,7 +12,7 @@ from roughfilm.rom.bearing.thermal.field.asperity_friction import asperity_frict
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm, hottest, start_of
 from roughfilm.rom.bearing.thermal.field.mixing import (
     COARSE_NODES,
-    MIXED,
+    SETTLED,
     at_mixture,
     is_seen_from_inside,
     mixture_of,
@@ -107,7 +107,7 @@ class AdiabaticWalls:
             imbalance=found.imbalance,
             friction=None if boundary is None else boundary.friction,
             start=stress,
-            settled=mixture is None or abs(mixture.error) <= MIXED,
+            settled=mixture is None or abs(mixture.error) <= SETTLED,
             slopes=found.slopes,
             films=1 if before is None else before.films + 1,
         )

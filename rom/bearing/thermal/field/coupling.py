@@ -30,11 +30,10 @@ The larger one is met where the pressure jumps at a corner, or lubricant circula
 every film at a few nodes.
 """
 
-CARRIED, NEARLY = 0.2, 3.0
-"""Relative error of the load of a film that changes further, over the expected difference of its ln η; and this
-difference over the tolerance below which the film meets the tolerance of its load."""
+CARRIED = 0.2
+"""Relative error of the load of a film that changes further, over the expected difference of its ln η."""
 
-FIRST_ERROR, FIRST_FALL = 0.01, 0.1
+FIRST_ERROR, FIRST_FALL = 0.01, 0.3
 """That error for the first film of a finer grid; and the expected fall of the difference from the first film on."""
 
 SOFTER_AT_INLET = 0.03
@@ -231,7 +230,7 @@ def _error_of_load(changes: Sequence[float], tolerance: float) -> float:
     """The relative error of the load of the next film; 0 if it is expected to be the last one."""
     fall = min(changes[-1] / changes[-2], 1.0) if len(changes) > 1 and changes[-2] > 0 else FIRST_FALL
     expected = fall * changes[-1]
-    return CARRIED * expected if expected > NEARLY * tolerance else 0.0
+    return CARRIED * expected if expected > tolerance else 0.0
 
 
 def _at_inlet(used: Array, following: Array, inlet: Mixture | None) -> tuple[Point, Point]:

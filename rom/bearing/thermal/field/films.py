@@ -12,7 +12,7 @@ from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
 from roughfilm.rom.bearing.equilibrium.films import FilmState, ModelFilms
 from roughfilm.rom.bearing.equilibrium.grids import Search
 from roughfilm.rom.bearing.free.solve import PlacedFilm, WithField
-from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState, mixed_problem
+from roughfilm.rom.bearing.mixed.film import RESIDUAL_FRACTION, MixedFilm, MixedState, mixed_problem
 from roughfilm.rom.bearing.thermal.field.coupling import (
     FIELD_TOLERANCE,
     FIRST_ERROR,
@@ -108,6 +108,13 @@ def _with_viscosities(films: AnyFilms, viscosities: ViscosityField | None) -> An
     return replace(films, film=lambda scene: replace(plain(scene), viscosities=viscosities))
 
 
+def _with_residual(films: AnyFilms, error: float) -> AnyFilms:
+    """The films with a residual that is small enough for a relative error of their load."""
+    if isinstance(films, ModelFilms):
+        return replace(films, residual=max(films.residual, RESIDUAL_FRACTION * error / films.cells))
+    return replace(films, accuracy=max(films.accuracy, error))
+
+
 @dataclass(frozen=True, kw_only=True)
 class HeatedBearing:
     """The coupling of the films of one scene with their temperatures.
@@ -151,12 +158,13 @@ class HeatedBearing:
             assert isinstance(films, AnyFilms)
 
             def again(near: AnyState, values: Array, error: float) -> AnyState:
-                varied = _with_viscosities(films, in_scene(near.solution, values))
+                varied = _with_residual(_with_viscosities(films, in_scene(near.solution, values)), error)
                 found: AnyState = search(varied, near, error=error, growth=growth(near.solution, values))
                 return found
 
             error = 0.0 if self.last.heated is None else FIRST_ERROR
-            first = search(_with_viscosities(films, self.last.viscosities), None, error=error)
+            varied = _with_residual(_with_viscosities(films, self.last.viscosities), error)
+            first = search(varied, None, error=error)
             film, solution = self._coupled(first, again, error)
             loaded: AnyState = replace(film, solution=solution)
             return loaded

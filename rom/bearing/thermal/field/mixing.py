@@ -29,6 +29,9 @@ HeatedT = TypeVar("HeatedT")
 MIXED = 1e-4
 """Error of the temperature of a mixture, K, at which its iteration stops."""
 
+SETTLED = 5e-4
+"""The same where film and mixture are found together, K, at which a film settles; about 2e-5 in ln η."""
+
 COARSE_NODES = 2000
 """Largest number of nodes of a grid on which temperatures and mixture of each film are iterated to the end.
 
