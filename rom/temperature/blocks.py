@@ -228,7 +228,7 @@ def blocks(along, beside, leaving, stored, upward, source, heating, softening, c
                         wall[i, j, n] = scratch[n, first, w]
                         flux[i, j, n] = scratch[first, n, w]
                     continue
-                taken = pull_0[w] / area[i, j]
+                taken = pull_0[w] / area[i, j] if area[i, j] > 0.0 else 0.0
                 flux_constant[i, j], flux_wall[i, j] = 0.0, -taken
                 for m in range(size):
                     wall[i, j, m], flux[i, j, m] = 0.0, 0.0
@@ -246,7 +246,10 @@ def blocks(along, beside, leaving, stored, upward, source, heating, softening, c
 
 @called
 def border(scratch, right, end, row, order, area, i, start, count, ends, inverses, offsets):  # type: ignore[no-untyped-def]
-    """Write the equation of a wall at a given temperature, and its flux into the equations of the points."""
+    """Write the equation of a wall at a given temperature, and its flux into the equations of the points.
+
+    In a gap between films, which has no area, the flux has no effect and no equation but its own.
+    """
     size = inverses.shape[0]
     for w in range(count):
         for n in range(size, order):
@@ -254,5 +257,7 @@ def border(scratch, right, end, row, order, area, i, start, count, ends, inverse
         right[row, w] = 0.0
         for m in range(size):
             scratch[m, row, w] = area[i, start + w] * ends[end, m]
-            scratch[row, m, w] = ends[end, m] * inverses[m, w]
+            scratch[row, m, w] = ends[end, m] * inverses[m, w] if area[i, start + w] > 0.0 else 0.0
             right[row, w] -= ends[end, m] * offsets[m, w]
+        if area[i, start + w] == 0.0:
+            scratch[row, row, w] = 1.0
