@@ -50,6 +50,12 @@ RENEWALS = 1
 The equilibrium of a wall that moves freely costs more than the temperatures, which are then those of each film.
 """
 
+PATIENCE = 15
+"""Number of films on a grid after which the temperatures of each film are iterated to the end.
+
+Lubricant that circulates needs many renewals, whose slow change would otherwise look like that of the films.
+"""
+
 
 @dataclass(frozen=True)
 class BetweenWalls:
@@ -81,6 +87,7 @@ class BetweenWalls:
         fine = near is not None and solution.state.pressure.size > COARSE_NODES
         free = isinstance(scene.geometry, MovingWall)
         same = start is not None and near is not None and near.temperature.shape == solution.grid.shape
+        films = near.films + 1 if same and near is not None else 1
         at_end = power_of_end(solution, start.viscosities.shear) if start is not None and same else None
         added = [one for one in (at_end, None if boundary is None else boundary.power) if one is not None]
 
@@ -95,7 +102,7 @@ class BetweenWalls:
                 added_power=sum(added[1:], added[0]) if added else None,
                 start=start if last is None else last,
                 tolerance=TOLERANCE,
-                renewals=RENEWALS if fine and not free else None,
+                renewals=RENEWALS if fine and not free and films <= PATIENCE else None,
             )
 
         known = mixture_of(near, solution)
@@ -134,6 +141,7 @@ class BetweenWalls:
                 "fixed_wall_temperature": found.fixed_wall.temperature,
             },
             start=found,
+            films=films,
             settled=found.settled and (mixture is None or abs(mixture.error) <= SETTLED),
         )
 
