@@ -235,7 +235,7 @@ def advise(
         models=[model for model in models if fits[model.name].applies],
         quantity=quantity,
         title=kind.titles[quantity],
-        table=lawful(laws or table(), kind.name_of_laws, holds=kind.lawful),
+        table=lawful(laws or table(), kind.names_of_laws, holds=kind.lawful),
         numbers=kind.numbers(scene),
         run=solved,
         failed=failed,

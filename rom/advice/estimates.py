@@ -115,6 +115,16 @@ class AdviceTask:
         """Whether no other model for the scene leaves out less."""
         return model.name == best_for(self.scene, self.models).name
 
+    def grids_alone(self, model: Model) -> bool:
+        """Whether a model has a law of its resolution alone, and none of what it leaves out."""
+        own = self.kind.laws_of_grids(model.name) != self.kind.name_of_laws
+        return own and self.grid_law(model) is not None
+
+    def counts_omission(self, model: Model) -> bool:
+        """Whether an omission states what a model leaves out, or it leaves out nothing that others include."""
+        own = self.omitted.get(model.name)
+        return (own is not None and bool(own.source)) or self.is_best(model)
+
     def grid(self, model: Model, resolution: int) -> float | None:
         """The error by a resolution over the size of the quantity, by the laws; None without a law.
 
@@ -141,7 +151,7 @@ class AdviceTask:
 
     def grid_law(self, model: Model) -> Law | None:
         """The law of the error by the resolution of a model; None if there is none."""
-        return self.table.grid(self.kind.name_of_laws, model.name, self.quantity)
+        return self.table.grid(self.kind.laws_of_grids(model.name), model.name, self.quantity)
 
     def beyond_grids(self, model: Model, resolution: int) -> str | None:
         """The name of a number outside the range of the law over resolutions of a model; None if there is none."""
@@ -217,6 +227,8 @@ def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | No
     left = left_out(task, task.chain(model))
     by_law = stated is None or task.promised(model)
     grid = task.grid(model, resolution) if by_law else stated
+    if by_law and task.grids_alone(model) and not task.counts_omission(model):
+        grid = None
     if left is None or grid is None:
         return None if left is None else _by_omission(task, model)
     parts, reasons, sure = left
@@ -310,7 +322,8 @@ def a_posteriori(task: AdviceTask, model: Model, resolution: int) -> Estimate | 
     """The estimate of the error of a model from runs; None if there is no cheap model to compare with, or a run fails.
 
     The model is compared with the next one: the difference plus the error of that model bounds the error. The most
-    complete model, if it runs in this process, is judged by the numerical uncertainty of its own run.
+    complete model, if it runs in this process, is judged by the numerical uncertainty of its own run, as is one whose
+    omission states what it leaves out.
     """
     runs = runs_of_check(task, model, resolution)
     if len(runs) == 2:
@@ -322,12 +335,13 @@ def runs_of_check(task: AdviceTask, model: Model, resolution: int) -> tuple[tupl
     """The models and resolutions that are run to check a model; none if no check is cheap.
 
     The resolution of the next model is one whose error is at most ``CHECK_FRACTION`` of that which the laws expect. The
-    uncertainty of its own run checks the best model alone: of another one without a next model, as the laws have none
-    for the scene, it does not contain what the model leaves out.
+    uncertainty of its own run checks the best model, and one with a law of its resolution whose omission states what it
+    leaves out. Of another one without a next model, as the laws have none for the scene, it does not contain that.
     """
     above = task.next(model)
     if above is None:
-        return () if model.outside or not task.is_best(model) else ((model, resolution),)
+        checks = task.counts_omission(model) if task.grids_alone(model) else task.is_best(model)
+        return ((model, resolution),) if checks and not model.outside else ()
     before = a_priori(task, model, resolution)
     finer = task.as_fine(above, 0.0 if before is None else CHECK_FRACTION * before.error)
     if above.available().available and _cheap(task, task.cost(above, finer), task.cost(model, resolution)):
@@ -339,7 +353,9 @@ def affordable(task: AdviceTask, pairs: Sequence[tuple[Model, int]]) -> set[tupl
     """The pairs of a model and a resolution that are checked by runs.
 
     The pairs are taken in order of cost, as long as all runs together cost at most ``BUDGET`` of the best model here at
-    its finest usual resolution. That run itself is always affordable. The choice does not depend on the tolerance.
+    its finest usual resolution. That run itself is always affordable, as is that of a model whose laws are those of its
+    resolution alone: it is no further run, but the answer itself if it suffices. The choice does not depend on the
+    tolerance.
     """
     top = best_for(task.scene, [model for model in task.models if model.available().available] or task.models)
     finest = max(task.resolutions(top))
@@ -348,6 +364,8 @@ def affordable(task: AdviceTask, pairs: Sequence[tuple[Model, int]]) -> set[tupl
     checked: set[tuple[str, int]] = set()
     for model, resolution in pairs:
         runs = {(one.name, n): task.cost(one, n) for one, n in runs_of_check(task, model, resolution)}
+        if runs.keys() == {(model.name, resolution)} and task.grids_alone(model):
+            paid |= runs.keys()
         cost = sum(runs[key] for key in runs.keys() - paid)
         if cost <= left:
             left -= cost

@@ -82,7 +82,7 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
             models=applying,
             quantity=quantity,
             title=title,
-            table=lawful(table(), kind.name_of_laws, holds=kind.lawful),
+            table=lawful(table(), kind.names_of_laws, holds=kind.lawful),
             numbers=kind.numbers(scene),
             run=lambda other, grid: other.solve(scene, Request(resolution=grid)),
         )

@@ -188,15 +188,15 @@ class Table:
         return next(own, None)
 
 
-def lawful(base: Table, kind: str, *, holds: bool) -> Table:
-    """The table, without the laws of a kind where they do not hold: of scenes whose film is sought under a load."""
+def lawful(base: Table, kinds: Container[str], *, holds: bool) -> Table:
+    """The table, without the laws of some kinds where they do not hold: of scenes whose film is sought under a load."""
     if holds:
         return base
     return replace(
         base,
-        steps=tuple(replace(step, left_out={}) if step.kind == kind else step for step in base.steps),
-        grids=tuple(grid for grid in base.grids if grid.kind != kind),
-        promises=tuple(promise for promise in base.promises if promise.kind != kind),
+        steps=tuple(replace(step, left_out={}) if step.kind in kinds else step for step in base.steps),
+        grids=tuple(grid for grid in base.grids if grid.kind not in kinds),
+        promises=tuple(promise for promise in base.promises if promise.kind not in kinds),
     )
 
 

@@ -23,7 +23,7 @@ from roughfilm.rom.lubricants.laws import Compressibility, Piezoviscosity, Therm
 from roughfilm.rom.lubricants.library import EXPANSION, entries_of, found_name
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.lubricants.shear_thinning import ShearThinning
-from roughfilm.rom.lubricants.thermal.law import AbsoluteLaw, AnchoredLaw, Supplied, Temperature, celsius
+from roughfilm.rom.lubricants.thermal.law import AbsoluteLaw, AnchoredLaw, Supplied, Temperature, at_most, celsius
 from roughfilm.rom.lubricants.thermal.tabulated import AnyHeatCapacity
 from roughfilm.rom.lubricants.thermal.viscosity import RoelandsTemperature
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY, ConstantViscosity
@@ -32,20 +32,7 @@ from roughfilm.rom.parts.surroundings import GaugePressure
 
 Viscosity = Annotated[float, InUnit("Pa*s")]
 Density = Annotated[float, InUnit("kg/m^3")]
-MAX_EXPANSION = 0.01
-"""Largest size of a coefficient of thermal expansion, 1/K."""
-
-
-def _small(expansion: float) -> float:
-    if abs(expansion) > MAX_EXPANSION:
-        raise ValueError(
-            f"got {expansion:g} 1/K; it must be at most {MAX_EXPANSION:g} 1/K in size, of oils it is about 0.0007 1/K; "
-            "check the unit"
-        )
-    return expansion
-
-
-Expansion = Annotated[float, InUnit("K^-1", any_sign=True), AfterValidator(_small)]
+Expansion = Annotated[float, InUnit("K^-1", any_sign=True), AfterValidator(at_most(0.01, "about 0.0007 1/K"))]
 Conductivity = Annotated[float, InUnit("W/(m*K)")]
 
 AGREEMENT = 1e-3
@@ -291,6 +278,16 @@ class BearingLubricant(Fluid):
             "shear_thinning": None if law is None else law.scaled(viscosity / self.viscosity),
         }
         return self.model_copy(update=update)
+
+    @property
+    def left_out_heat(self) -> list[str]:
+        """A warning that heat is left out of a film whose viscosity depends on temperature, as a key is missing."""
+        if self.thermoviscosity is None or not self.lacking:
+            return []
+        return [
+            f"lubricant.{self.lacking[0]}: missing, so that all films have the temperature of the supplied lubricant; "
+            "add it for the heat of the film, or name an oil"
+        ]
 
     def temperature_warnings(self, lowest: float, highest: float) -> list[str]:
         """A warning if temperatures, K, lie outside of the valid range of the law of the viscosity."""

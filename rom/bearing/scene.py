@@ -235,10 +235,11 @@ class Bearing(Scene):
             except InputError as error:
                 raise ValueError(f"boundary.inlet.{error}") from None
         self._can_be_supplied()
-        supplies = {f"supply.{number}.temperature": one.temperature for number, one in enumerate(self.supply)}
-        check_heat(
-            self.lubricant, self.heat, {"boundary.inlet.temperature": self.boundary.inlet.temperature, **supplies}
-        )
+        temperatures = {f"supply.{number}.temperature": one.temperature for number, one in enumerate(self.supply)}
+        temperatures["boundary.inlet.temperature"] = self.boundary.inlet.temperature
+        start = None if self.body is None else self.body.start
+        temperatures["body.start.temperature"] = None if start is None else start.temperature
+        check_heat(self.lubricant, self.heat, temperatures)
         if isinstance(self.geometry, Ring) and self.geometry.endless:
             self._can_be_joined("joined pads")
         elif isinstance(self.geometry, Lobes) and self.geometry.joined:

@@ -154,7 +154,8 @@ class Kind:
     laws : name of the error laws of its scenes in the table of laws; "" for the name of the kind.
     variants : by the name of their error laws, whether entries of a scene have these laws in place of those of the
         kind.
-    samples : names of further sets of random scenes by which its models are judged, beside those of the kind.
+    samples : by the name of a further set of random scenes by which its models are judged, beside those of the kind,
+        the models whose laws of the resolution are fitted to them.
     ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
@@ -199,7 +200,7 @@ class Kind:
     lawless: Callable[[Mapping[str, Any]], bool] = always_lawful
     laws: str = ""
     variants: Mapping[str, Callable[[Mapping[str, Any]], bool]] = field(default_factory=dict)
-    samples: tuple[str, ...] = ()
+    samples: Mapping[str, frozenset[str]] = field(default_factory=dict)
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
@@ -244,7 +245,7 @@ class Kind:
         """The kind with the compared quantities and the laws of a scene, from its entries by the names of tables."""
         own = next((name for name, belongs in self.variants.items() if belongs(entries)), "")
         if own:
-            return replace(self, laws=own, variants={}).of(entries)
+            return self.variant(own).of(entries)
         for table, compared in self.compared_with.items():
             if entries.get(table) is not None:
                 return self._comparing(compared)
@@ -254,6 +255,20 @@ class Kind:
     def name_of_laws(self) -> str:
         """The name of the error laws of its scenes in the table of laws."""
         return self.laws or self.name
+
+    @property
+    def names_of_laws(self) -> tuple[str, ...]:
+        """The names of the error laws of its scenes, those that are fitted to further sets of scenes too."""
+        return self.name_of_laws, *self.samples
+
+    def laws_of_grids(self, model: str) -> str:
+        """The name of the laws of the resolution of a model in the table of laws."""
+        own = (name for name, models in self.samples.items() if model in models)
+        return next(own, self.name_of_laws)
+
+    def variant(self, name: str) -> "Kind":
+        """The kind of scenes with laws of their own."""
+        return replace(self, laws=name, variants={}, samples={})
 
     def seeking(self, quantity: str) -> "Kind":
         """The kind of scenes that ask for a quantity by a table of their own, such as the film under a load."""
@@ -306,7 +321,7 @@ def kind_of_laws(name: str) -> Kind:
         return kind_of_name(name)
     for kind in kinds().values():
         if name in kind.variants:
-            return replace(kind, laws=name, variants={})
+            return kind.variant(name)
         if name in kind.samples:
             return kind
     raise KeyError(name)

@@ -62,6 +62,9 @@ NEAR_PEAK = 0.02
 LEAST_RANGE = 0.01
 """Range of the temperature, K, below which changes are over this range."""
 
+WITHOUT_OUTLET = 0.5
+"""Residual over the heat flows from which on most of the power of a film finds no way out of it."""
+
 ROUND_OFF = 2048 * float(np.finfo(float).eps)
 """Round-off of the residuals over the heat that the rise of the temperature would conduct across the film."""
 
@@ -130,7 +133,8 @@ class Iterate:
 
     Attributes
     ----------
-    near : properties of the liquid at the temperatures; None if they are to be evaluated again.
+    heat : heat of a volume at the points, J/m³, shape (nx, ny, N).
+    near : properties of the liquid at the temperatures; None if heat and properties are to be evaluated again.
     reach : limited factors of the faces in x and in y.
     renewals : number of renewals of viscosities from the first start on.
     response : change of the heat by the temperature of a turning wall, J/(m³ K); None for other walls.
@@ -138,6 +142,7 @@ class Iterate:
     contraction : change of the second sweep with the same equations over that of the first one, measured last.
     """
 
+    heat: Array
     near: Linearised | None
     reach: tuple[Array, Array]
     renewals: int
@@ -286,9 +291,11 @@ def _solved(
 ) -> TemperatureAcross:
     """Renew viscosities and equations, and sweep, until the temperature no longer changes."""
     supply = film.liquid.temperature
-    heat = np.array(np.broadcast_to(film.liquid.heat(temperature)[0], temperature.shape))
-    known_near = None if before is None else before.near
-    near = linearised(film.liquid, heat, temperature) if known_near is None else known_near
+    if before is not None and before.near is not None:
+        heat, near = before.heat.copy(), before.near
+    else:
+        heat = np.array(np.broadcast_to(film.liquid.heat(temperature)[0], temperature.shape))
+        near = linearised(film.liquid, heat, temperature)
     response = np.zeros(temperature.shape) if film.turning else None
     done, reach, slope = 0, None, 0.0
     if before is not None and before.reach[0].shape == temperature.shape:
@@ -329,15 +336,23 @@ def _solved(
             near = linearised(film.liquid, heat, near.near(supply, heat))
     settled = residual <= least and change <= tolerance
     if most is None and not settled:
+        remedy = "take more cells, or a lower speed or viscosity"
+        if residual >= WITHOUT_OUTLET:
+            remedy = "neither walls nor lubricant take so much heat out of it; cool a wall, or supply new lubricant"
         raise ConvergenceError(
             f"temperature across the film: after {sweeps} sweeps it changes by {change:.1e} of its range, with a "
-            f"residual of {residual:.1e}, above the tolerances {tolerance:.1e} and {least:.1e}; take more "
-            "cells, or a lower speed or viscosity",
+            f"residual of {residual:.1e}, above the tolerances {tolerance:.1e} and {least:.1e}; {remedy}",
             outcome=Outcome.UNFINISHED,
             iterations=sweeps,
         )
     following = Iterate(
-        near=near, reach=system.reach, renewals=done, response=response, slope=slope, contraction=contraction
+        heat=heat,
+        near=near,
+        reach=system.reach,
+        renewals=done,
+        response=response,
+        slope=slope,
+        contraction=contraction,
     )
     return _result(film, system, heat, near, checked, residual, change, settled, sweeps, following)
 

@@ -147,20 +147,20 @@ def multiply(matrix, row, right, size, total):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def blocks(along, beside, leaving, stored, upward, source, heating, softening, conduction, area, inverse_capacity, offset, holds_0, resistance_0, holds_1, resistance_1, outside_1, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, scratch, rows, right, pulls, lanes, inverse, constant, wall, flux, flux_constant, flux_wall):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
+def blocks(along, beside, leaving, stored, upward, source, heating, softening, conduction, area, inverse_capacity, offset, holds_0, resistance_0, holds_1, resistance_1, outside_1, given_0, given_1, weights, slopes, stiffness, ends, reach_x, reach_y, periodic_x, periodic_y, scratch, rows, right, pulls, lanes, inverse, constant, wall, flux, flux_constant, flux_wall):  # type: ignore[no-untyped-def]  # fmt: skip  # noqa: E501
     """Write the solution of the equations of each node, E = constant + wall T + inverse b, and the flux into the wall.
 
     E is the heat per volume at the points, T the temperature outside of the condition of the sliding wall, and b what
     flows in. The flux is flux_constant + flux_wall T + flux b. The temperature at the points is offset + E
     inverse_capacity, above that of the supply as all temperatures. What enters from outside is source + heating times
     the sum of softening times the temperatures. The flux into a wall with a resistance is that of the temperature at
-    the wall; the conditions of walls at given temperatures are equations with the fluxes into them as unknowns.
-    ``rows`` is a view of ``scratch``, the matrices of some nodes of a row.
+    the wall; the conditions of walls that are at a given temperature anywhere, ``given_0`` and ``given_1``, are
+    equations with the fluxes into them as unknowns. ``rows`` is a view of ``scratch``, the matrices of some nodes of a
+    row.
     """
     nx, ny, size = along.shape
     inverses, rises, offsets, heats, softens = lanes[0], lanes[1], lanes[2], lanes[3], lanes[4]
     factor, total, shift, softer, pull_0, pull_1 = pulls[0], pulls[1], pulls[2], pulls[3], pulls[4], pulls[5]
-    given_0, given_1 = resistance_0[0, 0] == 0.0, resistance_1[0, 0] == 0.0
     first = size
     second = size + 1 if given_0 else size
     order = second + 1 if given_1 else second
@@ -205,9 +205,9 @@ def blocks(along, beside, leaving, stored, upward, source, heating, softening, c
                     out = leaving[i, j, m] - weights[m] * stored[i, j]
                     scratch[m, m, w] += out + outflow(along, beside, reach_x, reach_y, before, below, i, j, m)
             if given_0:
-                border(scratch, right, 0, first, order, area, i, start, count, ends, inverses, offsets)
+                border(scratch, right, 0, first, order, area, resistance_0, i, start, count, ends, inverses, offsets)
             if given_1:
-                border(scratch, right, 1, second, order, area, i, start, count, ends, inverses, offsets)
+                border(scratch, right, 1, second, order, area, resistance_1, i, start, count, ends, inverses, offsets)
                 for w in range(count):
                     right[second, w] += outside_1[i, start + w]
             invert(rows, order, factor)
@@ -228,7 +228,7 @@ def blocks(along, beside, leaving, stored, upward, source, heating, softening, c
                         wall[i, j, n] = scratch[n, first, w]
                         flux[i, j, n] = scratch[first, n, w]
                     continue
-                taken = pull_0[w] / area[i, j]
+                taken = holds_0 / resistance_0[i, j]
                 flux_constant[i, j], flux_wall[i, j] = 0.0, -taken
                 for m in range(size):
                     wall[i, j, m], flux[i, j, m] = 0.0, 0.0
@@ -245,12 +245,13 @@ def blocks(along, beside, leaving, stored, upward, source, heating, softening, c
 
 
 @called
-def border(scratch, right, end, row, order, area, i, start, count, ends, inverses, offsets):  # type: ignore[no-untyped-def]
-    """Write the equation of a wall at a given temperature, and its flux into the equations of the points."""
+def border(scratch, right, end, row, order, area, resistance, i, start, count, ends, inverses, offsets):  # type: ignore[no-untyped-def]
+    """Write the condition of a wall as an equation, and the flux into it into the equations of the points."""
     size = inverses.shape[0]
     for w in range(count):
         for n in range(size, order):
             scratch[row, n, w] = 0.0
+        scratch[row, row, w] = -resistance[i, start + w]
         right[row, w] = 0.0
         for m in range(size):
             scratch[m, row, w] = area[i, start + w] * ends[end, m]

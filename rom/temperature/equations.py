@@ -222,6 +222,7 @@ def equations(
         *(along, beside, leaving, stored, upward, source, heating, softening, nodes.conduction, nodes.area),
         *(near.inverse_capacity, near.offset, sliding.holds, sliding.resistance),
         *(fixed.holds, fixed.resistance, fixed.outside),
+        *(bool((wall.resistance == 0).any()) for wall in walls),
         *(parts.weights, parts.slopes, parts.stiffness, parts.ends, *reach, *nodes.periodic),
         *(scratch, scratch.reshape(size + 2, -1), right, np.ones((6, LANES)), np.ones((5, size, LANES)), *solved),
     )

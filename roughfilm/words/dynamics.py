@@ -84,14 +84,7 @@ def heat_warnings(scene: Bearing, curves: Sequence[DynamicCurve]) -> list[str]:
     lubricant = scene.lubricant
     points = [point for curve in curves for point in curve.points]
     found = [point.numbers["temperature"] + ZERO_CELSIUS for point in points if "temperature" in point.numbers]
-    if found:
-        return lubricant.temperature_warnings(min(found), max(found))
-    if lubricant.thermoviscosity is None or not lubricant.lacking:
-        return []
-    return [
-        f"lubricant.{lubricant.lacking[0]}: missing, so that all films have the temperature of the supplied lubricant; "
-        "add it for the heat of the film, or name an oil"
-    ]
+    return lubricant.temperature_warnings(min(found), max(found)) if found else lubricant.left_out_heat
 
 
 def warnings_of(scene: Bearing, curve: DynamicCurve) -> list[str]:

@@ -218,7 +218,7 @@ def march_bearing(
 
     series = marched("fine", numerics, "fine")
     summary = summary_of(duty, series)
-    quantities, warnings = dict(summary.quantities), _warnings(summary)
+    quantities, warnings = dict(summary.quantities), _warnings(summary) + scene.lubricant.left_out_heat
     if uncertain:
         try:
             others = _compared(numerics, marched)

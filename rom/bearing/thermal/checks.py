@@ -11,25 +11,25 @@ COLDER, WARMER = 200.0, 500.0
 error such as K in place of degC, and no lubricant stays liquid over it."""
 
 
-def check_heat(lubricant: BearingLubricant, heat: Heat | None, entering: Mapping[str, float | None]) -> None:
+def check_heat(lubricant: BearingLubricant, heat: Heat | None, others: Mapping[str, float | None]) -> None:
     """Raise ValueError for heat in a scene without temperature, and for temperatures far from the lubricant's.
 
     Parameters
     ----------
     lubricant : the lubricant of the scene.
     heat : its table [heat].
-    entering : temperatures of lubricant that enters, K, by their keys.
+    others : other temperatures of the scene, K, by their keys.
     """
-    given = {key: one for key, one in {**entering, **_temperatures(heat)}.items() if one is not None}
+    given = {key: one for key, one in {**others, **_temperatures(heat)}.items() if one is not None}
     place = next(iter(given), None) if heat is None else "heat"
     if place is None:
         return
     if lubricant.lacking:
-        *others, last = (f"lubricant.{key}" for key in lubricant.lacking)
-        missing = f"{', '.join(others)} and {last}" if others else last
+        *first, last = (f"lubricant.{key}" for key in lubricant.lacking)
+        missing = f"{', '.join(first)} and {last}" if first else last
         raise ValueError(
             f"{place}: got {'a table' if place == 'heat' else 'a temperature'}, but the scene has no temperature "
-            f"without {missing}; give {'them' if others else 'it'}, name an oil, or leave {place} out"
+            f"without {missing}; give {'them' if first else 'it'}, name an oil, or leave {place} out"
         )
     supplied = lubricant.temperature
     assert supplied is not None

@@ -1,7 +1,7 @@
 """The base classes of the laws of the viscosity over temperature."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Annotated, ClassVar, Self
@@ -29,6 +29,25 @@ def celsius(temperature: float) -> str:
     '40 °C'
     """
     return f"{temperature - ZERO_CELSIUS:.4g} °C"
+
+
+def at_most(most: float, usual: str) -> Callable[[float], float]:
+    """A check of a coefficient over temperature, 1/K, which raises ValueError if its size is above ``most``.
+
+    Parameters
+    ----------
+    usual : usual coefficients, in words, for the message.
+    """
+
+    def checked(coefficient: float) -> float:
+        if abs(coefficient) > most:
+            raise ValueError(
+                f"got {coefficient:g} 1/K; it must be at most {most:g} 1/K in size, of oils it is {usual}; check the "
+                "unit"
+            )
+        return coefficient
+
+    return checked
 
 
 def check_rising(table: Sequence[tuple[float, float]]) -> None:

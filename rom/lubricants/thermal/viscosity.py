@@ -19,21 +19,10 @@ from roughfilm.rom.lubricants.thermal.law import (
     AnchoredLaw,
     Supplied,
     Temperature,
+    at_most,
     celsius,
 )
 from roughfilm.rom.lubricants.viscosity import LOG_VISCOSITY
-
-MAX_COEFFICIENT = 1.0
-"""Largest size of the coefficient of the exponential law, 1/K."""
-
-
-def _small(coefficient: float) -> float:
-    if abs(coefficient) > MAX_COEFFICIENT:
-        raise ValueError(
-            f"got {coefficient:g} 1/K; it must be at most {MAX_COEFFICIENT:g} 1/K in size, of oils it is 0.02 to "
-            "0.06 1/K; check the unit"
-        )
-    return coefficient
 
 
 def _without_zero(difference: Any) -> Any:
@@ -43,7 +32,9 @@ def _without_zero(difference: Any) -> Any:
     return difference
 
 
-TemperatureCoefficient = Annotated[float, InUnit("K^-1", any_sign=True), AfterValidator(_small)]
+TemperatureCoefficient = Annotated[
+    float, InUnit("K^-1", any_sign=True), AfterValidator(at_most(1.0, "0.02 to 0.06 1/K"))
+]
 Difference = Annotated[float, InUnit("K"), BeforeValidator(_without_zero)]
 Viscosity = Annotated[float, InUnit("Pa*s")]
 

@@ -263,6 +263,7 @@ def curve_entries(
         for curve in curves
         if (missing := len(speeds) - len(curve.points))
     ]
+    warnings += scene.lubricant.left_out_heat
     warnings += flash_warnings_of(scene, points)
     if cells is not None and scene.asperities is not None and scene.asperities.solid_heat is not None:
         warnings.append("asperities.solid_heat: flash temperatures are left out over windows; take one surface")

@@ -76,6 +76,7 @@ def with_truth(kind: str, seed: int, scene: Scene) -> Judged:
         own=truth.own,
         by=truth.by,
         runs=truth.runs,
+        finer=truth.finer,
         method=truth.method,
         truth_warnings=truth.warnings,
         truth_cpu_s=time.process_time() - begun,

@@ -100,7 +100,8 @@ def _truth(scene: Scene, solve: Solver, method: str) -> Truth:
     Without a limit of the best one, the truth is empty: expected errors are then not judged.
     """
     applying = [model for model in models(scene.kind) if not model.outside and model.applies(scene).applies]
-    own = {model.name: extrapolated(scene, model, solve) for model in applying}
+    solved = {model.name: finer_runs(scene, model, solve) for model in applying}
+    own = {name: limits(runs) if len(runs) >= LEAST else {} for name, runs in solved.items()}
     if not any(own.values()):
         raise ConvergenceError("no model solves the scene on finer grids")
     top = own[best_for(scene, applying).name]
@@ -109,19 +110,20 @@ def _truth(scene: Scene, solve: Solver, method: str) -> Truth:
         uncertainty={name: bar for name, (_, bar) in top.items()},
         method=method,
         own=own,
+        finer={name: {run.numerics.resolution: _values(run) for run in runs} for name, runs in solved.items() if runs},
     )
 
 
-def extrapolated(scene: Scene, model: Model, solve: Solver) -> Values:
-    """Return the limit of fine grids of each quantity with its uncertainty; empty without two finer grids.
+def finer_runs(scene: Scene, model: Model, solve: Solver) -> list[Result]:
+    """Return the solutions on finer and finer grids, the judged one first; empty if two finer ones take too long.
 
     The grid is refined until the uncertainty is ``SHARE`` of the one that the judged solution states for the quantities
     in ``SOUGHT``, or until ``MAX_CPU_S`` or ``MAX_FACTOR``.
     """
     base = judged_resolution(model, scene)
-    factor, runs, found = 1, list[Result](), dict[str, tuple[float, float]]()
+    factor, runs = 1, list[Result]()
     if model.cost(scene, base * 2 ** (LEAST - 1)) > MAX_NEEDED_S:
-        return found
+        return runs
     while factor <= MAX_FACTOR:
         if factor > 1 and model.cost(scene, base * factor) > (MAX_CPU_S if len(runs) >= LEAST else MAX_NEEDED_S):
             break
@@ -132,10 +134,14 @@ def extrapolated(scene: Scene, model: Model, solve: Solver) -> Values:
             break
         factor *= 2
         if len(runs) >= LEAST:
-            found = _limits(runs)
+            found = limits(runs)
             if all(_sharp(runs[0], name, found[name][1]) for name in SOUGHT if name in found):
                 break
-    return found
+    return runs
+
+
+def _values(run: Result) -> dict[str, float]:
+    return {name: one.value for name, one in run.quantities.items()}
 
 
 def _sharp(judged: Result, name: str, bar: float) -> bool:
@@ -143,9 +149,9 @@ def _sharp(judged: Result, name: str, bar: float) -> bool:
     return stated is None or bar <= max(SHARE * stated, GIVEN * abs(judged.quantities[name].value))
 
 
-def _limits(runs: Sequence[Result]) -> dict[str, tuple[float, float]]:
-    """Return value and uncertainty of the quantities of all runs."""
-    limits = {}
+def limits(runs: Sequence[Result]) -> dict[str, tuple[float, float]]:
+    """Return the limit of fine grids of each quantity that all runs have, with its uncertainty."""
+    found = {}
     for name in runs[0].quantities:
         if not all(name in run.quantities for run in runs):
             continue
@@ -156,5 +162,5 @@ def _limits(runs: Sequence[Result]) -> dict[str, tuple[float, float]]:
             formal_order=2,
             noise=runs[-1].numerics.residual * abs(values[-1]),
         )
-        limits[name] = (limit.value, limit.uncertainty)
-    return limits
+        found[name] = (limit.value, limit.uncertainty)
+    return found

@@ -48,7 +48,7 @@ class Judged:
     """A random scene with its truth, as (value, uncertainty) by quantity, and the answers of models by name.
 
     ``own`` is the truth of the own equations of a model, by its name, ``by`` the model that gave the truth of the
-    scene, and ``runs`` its quantities by resolution (see ``Truth``).
+    scene, and ``runs`` its quantities by resolution, ``finer`` those of each model (see ``Truth``).
     ``failure`` is the reason why there is no truth. ``code`` is a digest of the code and the laws behind the answers.
     """
 
@@ -59,6 +59,7 @@ class Judged:
     own: Mapping[str, Mapping[str, tuple[float, float]]] = field(default_factory=dict)
     by: str = ""
     runs: Mapping[int, Mapping[str, float]] = field(default_factory=dict)
+    finer: Mapping[str, Mapping[int, Mapping[str, float]]] = field(default_factory=dict)
     method: str = ""
     truth_warnings: tuple[str, ...] = ()
     truth_cpu_s: float = 0.0
@@ -96,6 +97,8 @@ def read(path: Path) -> dict[int, Judged]:
         own = entries.get("own", {})
         entries["own"] = {name: {q: tuple(pair) for q, pair in one.items()} for name, one in own.items()}
         entries["runs"] = {int(resolution): values for resolution, values in entries.get("runs", {}).items()}
+        finer = entries.get("finer", {})
+        entries["finer"] = {name: {int(n): values for n, values in one.items()} for name, one in finer.items()}
         answers = {name: {**one, "warnings": tuple(one["warnings"])} for name, one in entries["models"].items()}
         entries["models"] = {name: Answer(**one) for name, one in answers.items()}
         entries["advice"] = tuple(Advised(**one) for one in entries.get("advice", ()))

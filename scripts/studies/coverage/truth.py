@@ -24,6 +24,7 @@ class Truth:
     warnings : one sentence for each reason why the solution may be wrong.
     by : name of the model whose finer solutions are the truth, by which it is not judged; empty for other methods.
     runs : the quantities by that model at each of its resolutions, if laws are fitted to them.
+    finer : by model, its quantities at each of the resolutions behind its entry in ``own``.
     """
 
     values: Mapping[str, float]
@@ -33,6 +34,7 @@ class Truth:
     warnings: tuple[str, ...] = ()
     by: str = ""
     runs: Mapping[int, Mapping[str, float]] = field(default_factory=dict)
+    finer: Mapping[str, Mapping[int, Mapping[str, float]]] = field(default_factory=dict)
 
 
 def kinds_with_truth() -> tuple[str, ...]:

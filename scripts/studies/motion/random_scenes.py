@@ -40,7 +40,7 @@ def drawn_with_heat(kind: str, seed: int, *, replaced: bool = True) -> Bearing:
     Parameters
     ----------
     kind : one of ``HEATED``.
-    replaced : whether new lubricant may replace hot one behind gaps and grooves, which `across` does not take.
+    replaced : whether new lubricant may replace hot one behind gaps and grooves; `across` takes that behind gaps alone.
 
     Raises
     ------

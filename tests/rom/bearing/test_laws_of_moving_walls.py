@@ -4,7 +4,7 @@ import pytest
 
 from roughfilm.ladder import find, models
 from roughfilm.rom.advice.advise import advise
-from roughfilm.rom.advice.laws import table
+from roughfilm.rom.advice.laws import lawful, table
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.ladder.kind import kind_of_scene
 from roughfilm.rom.ladder.request import Request
@@ -36,6 +36,18 @@ def test_a_place_under_a_load_and_a_given_one_have_laws_of_their_own():
     assert not kind_of_scene(
         scene(journal, lubricant={"viscosity": "20 mPa*s", "cavitation_pressure": "-1 kPa"})
     ).lawful
+
+
+def test_the_grids_of_models_with_temperature_have_the_laws_of_given_films_that_heat():
+    """Not those of walls that move freely, nor under a load."""
+    placed, free = scene({**LEMON, "eccentricity": [0.1, -0.2]}), scene(LEMON)
+    journal = kind_of_scene(scene({"shape": "journal", "radius": "50 mm", "clearance": "100 um", "eccentricity": 0.5}))
+    models = ("reynolds_cavitating", "heat_balance", "adiabatic", "across")
+    assert [journal.laws_of_grids(model) for model in models] == ["bearing", *["heated_bearing"] * 3]
+    assert journal.names_of_laws == ("bearing", "heated_bearing")
+    assert [kind_of_scene(one).laws_of_grids("across") for one in (placed, free)] == ["placed_bearing", "free_bearing"]
+    without = lawful(table(), journal.names_of_laws, holds=False)
+    assert not {grid.kind for grid in without.grids} & {"bearing", "heated_bearing"}
 
 
 def test_suction_is_that_of_a_film_that_widens_over_that_and_the_ambient_pressure():

@@ -64,3 +64,10 @@ def test_too_hot_a_film_is_an_answer_with_its_place(bore):
     cool = ConductingWall(resistance=3000 / FLUX, surroundings=SUPPLY)
     with pytest.raises(ConvergenceError, match=r"more than 1000 K .* at x = .* m, y = .* m"):
         temperature_across(bore, liquid(viscosity=VISCOSITY), sliding_wall=InsulatedWall(), fixed_wall=cool)
+
+
+def test_heat_without_a_way_out(bore):
+    """Between insulated walls no lubricant leaves a closed bore, so that it has no temperature."""
+    walls = {"sliding_wall": InsulatedWall(), "fixed_wall": InsulatedWall()}
+    with pytest.raises(ConvergenceError, match=r"neither walls nor lubricant take|more than 1000 K"):
+        temperature_across(bore, liquid(viscosity=VISCOSITY), **walls)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.words.scales import Scale, Scales, common_scale, scale_for
+from roughfilm.words.scales import Scale, Scales, common_scale, family, scale_for
 
 
 @pytest.mark.parametrize(
@@ -59,3 +59,8 @@ def test_all_pressures_of_a_page_share_a_unit_and_friction_has_its_own():
     assert scales("bearing_load", "N").unit == scales("contact_load", "N").unit == "kN"
     assert scales("friction", "N") == Scale(factor=1.0, unit="N")
     assert scales.text("contact_share", Quantity(value=0.256, unit="1", uncertainty=0.006)) == "25.6 ± 0.6 %"
+
+
+def test_the_place_of_the_highest_temperature_has_a_unit_of_its_own():
+    places = ("film_min_x", "temperature_max_x", "temperature_max_y")
+    assert [family(name, "m") for name in places] == [*places]

@@ -315,6 +315,17 @@ def test_a_lemon_bore_whirls_at_a_far_higher_speed_than_plain_halves() -> None:
     assert values["curves"]["plain halves"].points[-1]["whirl_ratio"].value == pytest.approx(0.5, abs=0.002)
 
 
+def test_a_whirl_in_hot_oil_begins_to_whirl_later() -> None:
+    values = values_of("bearings/whirl_in_hot_oil")
+    assert values["onset"]["oil as supplied"] == pytest.approx(4970, rel=5e-3)
+    assert values["onset"]["oil that heats"] == pytest.approx(5590, rel=5e-3)
+    cold, hot = (curve.points for curve in values["curves"].values())
+    assert [hot[place]["temperature"].value for place in (0, -1)] == pytest.approx([57.4, 72.1], abs=0.2)
+    for one, other in zip(cold, hot, strict=True):
+        assert other["eccentricity"].value > one["eccentricity"].value
+        assert other["critical_mass"].value > one["critical_mass"].value
+
+
 def test_sommerfeld_numbers_agree_with_raimondi_and_boyd_and_with_ocvirk() -> None:
     values = values_of("bearings/sommerfeld_number")
     assert values["largest_difference"] < 0.0145

@@ -1,5 +1,6 @@
 """The quantities, fields and uncertainties of a film with temperatures."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -166,10 +167,11 @@ def iteration_uncertainties(levels: Sequence[Solution], quantities: Mapping[str,
         return {}
     contraction, grid, thinning = min(solution.contraction, SLOWEST), solution.grid, _thinning(solution)
     left = solution.changes[-1] * max(contraction / (1 - contraction), 1.0)
+    hotter = circulating_uncertainty(levels)
     special = {
-        HIGHEST: solution.largest / thinning + circulating_uncertainty(levels),
-        "temperature_max_x": float(grid.spacing_x.max()),
-        "temperature_max_y": float(grid.spacing_y.max()),
+        HIGHEST: solution.largest / thinning + hotter,
+        "temperature_max_x": float(grid.spacing_x.max()) if math.isfinite(hotter) else math.inf,
+        "temperature_max_y": float(grid.spacing_y.max()) if math.isfinite(hotter) else math.inf,
     }
     return {
         name: special.get(name, left / thinning if one.unit == "degC" else left * abs(one.value))

@@ -115,9 +115,21 @@ def at_one_resolution(
 
 
 def answered(scenes: Mapping[int, FitScene], refinements: Refinements, model: str, quantity: str) -> Rows:
-    """Return the errors of a model at its judged resolution against the limit of its own equations."""
+    """Return the errors of a model against the limit of its own equations.
+
+    They are those of all solutions behind that limit but the finest one, where these are known, otherwise those of the
+    judged answer.
+    """
     own = {seed: one for seed, one in scenes.items() if model in one.judged.own}
-    return promised(own, refinements, model, model, quantity)
+    known = {seed: one for seed, one in own.items() if model in one.judged.finer}
+    rows = promised({seed: own[seed] for seed in own.keys() - known.keys()}, refinements, model, model, quantity)
+    for one in known.values():
+        runs = one.judged.finer[model]
+        for resolution in sorted(runs)[:-1]:
+            error = one.error(quantity, runs[resolution], model)
+            if error is not None:
+                rows.append((on_grid(one.numbers, resolution), error))
+    return rows
 
 
 def refinement(scenes: Mapping[int, FitScene], refinements: Refinements, model: str, quantity: str) -> Rows:

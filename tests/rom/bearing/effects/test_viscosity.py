@@ -8,10 +8,12 @@ import pytest
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.ladder import find, models
 from roughfilm.rom.advice.advise import advise
+from roughfilm.rom.advice.laws import Grid, Law, Term, on_grid, table
 from roughfilm.rom.bearing.effects.viscosity import MARGIN, CoarseFilms, coarse_films, viscosity_omitted
 from roughfilm.rom.bearing.effects.waves import waves_omitted
 from roughfilm.rom.bearing.omission import omission
 from roughfilm.rom.bearing.roughness import Sinusoid
+from roughfilm.rom.ladder.kind import kind_of_scene
 from roughfilm.rom.ladder.model import Effect, best_for
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
@@ -85,6 +87,43 @@ def test_a_failure_of_the_best_model_makes_the_part_unknown(monkeypatch):
         omitted = viscosity_omitted(wedge(2.5), model, "load_per_width")
         assert omitted.part == math.inf
         assert omitted.reason.endswith(": thermal runaway")
+
+
+@pytest.mark.parametrize("name", ["heat_balance", "adiabatic", "across"])
+def test_the_law_of_the_grid_bounds_the_error_on_a_coarse_grid(name):
+    """Beside one on 16 times as many cells; without the law no grid is expected to be too coarse."""
+    scene, model = wedge(), find("bearing", name)
+    coarse, fine = (model.solve(scene, Request(resolution=cells))["load_per_width"].value for cells in (64, 1024))
+    advice = advise(scene, MODELS, quantity="load_per_width", within=0.05)
+    law = table().grid(kind_of_scene(scene).laws_of_grids(name), name, "load_per_width")
+    bounds = [law.error(on_grid(advice.numbers, cells)) for cells in (64, 1024)]
+    assert abs(coarse - fine) / fine < bounds[0]
+    assert bounds[1] < bounds[0] / 2
+
+
+def test_advice_expects_the_error_of_a_grid_by_its_law():
+    advice = advise(wedge(), MODELS, quantity="load_per_width", within=0.05)
+    found = {one.model: one.a_priori for one in advice.considered}
+    assert "error by the resolution of" in found["adiabatic"].reasons[0]
+    assert found["adiabatic"].error > 0
+
+
+@pytest.mark.parametrize(("bound", "runs"), [(0.06, True), (0.3, False)])
+def test_a_wide_law_does_not_make_the_grid_finer(bound, runs):
+    """Up to five tolerances the run decides, by its own uncertainty; beyond, the grid is not tried."""
+    wide = Law(terms=[Term(coefficient=bound)])
+    models, known = ("heat_balance", "adiabatic", "across"), table()
+    others = [grid for grid in known.grids if grid.kind != "heated_bearing"]
+    grids = [Grid(kind="heated_bearing", model=name, laws={"load_per_width": wide}) for name in models]
+    given = {"quantity": "load_per_width", "within": 0.05}
+    bare, ruled = (
+        advise(wedge(), MODELS, laws=replace(known, grids=all_), **given) for all_ in (others, [*others, *grids])
+    )
+    assert bare.chosen.model in models
+    if runs:
+        assert (ruled.chosen.model, ruled.chosen.resolution) == (bare.chosen.model, bare.chosen.resolution)
+    else:
+        assert ruled.chosen is None or ruled.chosen.model not in models
 
 
 def test_heating_adds_to_inertia():

@@ -136,6 +136,14 @@ def test_a_heavy_rotor_whirls_at_about_half_of_its_speed_and_a_light_one_does_no
     assert np.ptp(heavy["eccentricity_x"][late]) > 3 * np.ptp(light["eccentricity_x"][light.time > 0.03])
 
 
+def test_a_law_over_temperature_without_a_heat_capacity_is_reported():
+    law = {"law": "exponential", "temperature_coefficient": "0.03 1/K"}
+    lubricant = LUBRICANT | {"temperature": "40 degC", "density": "870 kg/m^3", "thermoviscosity": law}
+    scene = bearing(load={"force": "100 N"}, lubricant=lubricant)
+    march = march_bearing(scene, end=1e-3, steps=2, cells=CELLS, uncertain=False)
+    assert any(line.startswith("lubricant.heat_capacity: missing, so that") for line in march.warnings)
+
+
 def test_a_shaft_that_sinks_at_rest_does_not_whirl():
     scene = bearing(motion={"speed": "0 rpm"}, load={"force": "100 N"}, body={"mass": "1 kg"})
     march = march_bearing(scene, end=0.05, steps=20, cells=CELLS, uncertain=False)

@@ -53,6 +53,10 @@ LAW = {"law": "exponential", "temperature_coefficient": "0.03 1/K"}
         ),
         ({"supply": [HOLE | {"temperature": "40 K"}]}, r"supply\.0\.temperature: got -233\.1 °C; it must be from"),
         (
+            {"heat": {"time_constant": "10 s"}, "body": {"start": {"temperature": "900 degC"}}},
+            r"body\.start\.temperature: got 900 °C; it must be from",
+        ),
+        (
             {"lubricant": {"oil": "ISO VG 32", "temperature": "45 K"}},
             r"lubricant\.temperature: got -228\.1 °C; it",
         ),

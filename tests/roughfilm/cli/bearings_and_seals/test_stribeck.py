@@ -73,12 +73,17 @@ def test_walls_part_between_the_points_that_touch_and_those_that_do_not(swept):
 
 def test_spots_in_contact_have_a_flash_temperature_with_a_range(swept, tmp_path):
     heat = {"conductivity": "46 W/(m*K)", "density": "7850 kg/m^3", "heat_capacity": "460 J/(kg*K)"}
-    words = [word for key, value in heat.items() for word in ("--set", f"asperities.solid_heat.{key}={value}")]
+    entries = [f"asperities.solid_heat.{key}={value}" for key, value in heat.items()]
+    entries += ["lubricant.temperature=40 degC", "lubricant.thermoviscosity.law=exponential"]
+    entries += ["lubricant.thermoviscosity.temperature_coefficient=0.03/K"]
+    words = [word for entry in entries for word in ("--set", entry)]
     table, options = swept[0] / "table.h5", ("--loads", "1MPa", "--speeds", "0,20rpm")
     done = run("--out", tmp_path / "out", "--table", table, *options, *words)
     assert done.exit_code == 0, done.stderr
     assert "spots hotter by, K" in " ".join(done.stdout.split())
-    assert "flash_temperature: a spot has" in " ".join((done.stdout + done.stderr).split())
+    printed = " ".join((done.stdout + done.stderr).split())
+    assert "flash_temperature: a spot has" in printed
+    assert "missing, so that all films have the temperature of the supplied lubricant" in printed
     entries = json.loads((tmp_path / "out" / "stribeck.json").read_text(encoding="utf-8"))
     rest, slow = entries["curves"][0]["points"]
     assert rest["flash_temperature"] == 0

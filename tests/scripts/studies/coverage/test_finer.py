@@ -10,7 +10,7 @@ from roughfilm.ladder import find
 from roughfilm.rom.ladder.scene import read_scene
 from scripts.studies.coverage import finer
 from scripts.studies.coverage.answering import answers, judged_resolution
-from scripts.studies.coverage.finer import extrapolated, finer_truth, on_finer_surface
+from scripts.studies.coverage.finer import finer_runs, finer_truth, on_finer_surface
 from scripts.studies.coverage.surfaces import SIDE, in_file
 
 WEDGE = {
@@ -36,6 +36,8 @@ def test_the_truth_of_a_wedge_is_the_closed_form():
     assert abs(value - wedge_load()) <= bar
     assert found.values["load_per_width"] == found.own["reynolds_cavitating"]["load_per_width"][0]
     assert found.own.keys() == answers(read_scene(WEDGE)).keys()
+    judged, *finest = found.finer["reynolds"].values()
+    assert abs(finest[-1]["load_per_width"] - value) < abs(judged["load_per_width"] - value)
 
 
 def test_finer_solutions_stop_at_smaller_residuals(monkeypatch):
@@ -43,10 +45,11 @@ def test_finer_solutions_stop_at_smaller_residuals(monkeypatch):
     tolerances = {}
 
     def collect(_scene, model, solve):
-        tolerances[model.name] = [solve(model, factor).numerics.tolerance for factor in (1, 2)]
-        return {"load_per_width": (1.0, 0.0)}
+        runs = [solve(model, factor) for factor in (1, 2, 4)]
+        tolerances[model.name] = [run.numerics.tolerance for run in runs[:2]]
+        return runs
 
-    monkeypatch.setattr(finer, "extrapolated", collect)
+    monkeypatch.setattr(finer, "finer_runs", collect)
     finer_truth(read_scene(WEDGE))
     for name, (judged, fine) in tolerances.items():
         assert judged == find("bearing", name).tolerance
@@ -59,7 +62,7 @@ def test_a_model_that_fails_on_finer_grids_has_no_truth(monkeypatch):
     def fail(_model, _factor):
         raise ConvergenceError("no")
 
-    assert extrapolated(scene, find("bearing", "reynolds"), fail) == {}
+    assert finer_runs(scene, find("bearing", "reynolds"), fail) == []
     monkeypatch.setattr(finer, "MAX_NEEDED_S", 0.0)
     with pytest.raises(ConvergenceError, match="finer grids"):
         finer_truth(scene)

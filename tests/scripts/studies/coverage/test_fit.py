@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from roughfilm.rom.advice.laws import Grid, Promise, Step, Table, read_table
+from roughfilm.rom.ladder.kind import kind_of_laws
 from scripts.studies.coverage import store
-from scripts.studies.coverage.fit import resolutions
+from scripts.studies.coverage.fit import resolutions, rows
 from scripts.studies.coverage.fit.__main__ import replaced
 from scripts.studies.coverage.fit.laws_file import write_table
 from scripts.studies.coverage.fit.regression import calibration, fitted
@@ -115,3 +116,22 @@ def test_the_runs_behind_a_truth_are_refinements_beside_those_in_their_own_file(
         (7, "fine"): {40: {"load": 2.0}, 80: {"load": 2.5}},
         (7, "other"): {20: {"load": 1.0}},
     }
+
+
+def judged_on_grids(seed, **entries):
+    """A scene to fit whose model m has the load 1 N/m in the limit of fine grids, and 1.5 N/m in its answer."""
+    answer = store.Answer(values={"load_per_width": 1.5, "friction_per_width": 1.0}, resolution=16)
+    own = {"m": {"load_per_width": (1.0, 1e-3), "friction_per_width": (1.0, 1e-3)}}
+    one = store.Judged(kind="bearing", seed=seed, scene={}, truth={}, own=own, models={"m": answer}, **entries)
+    return rows.FitScene(judged=one, numbers={"a": float(seed)}, kind=kind_of_laws("bearing"))
+
+
+def test_the_errors_of_finer_grids_are_fitted_too_but_for_the_finest(monkeypatch):
+    """Without these grids the error is that of the answer."""
+    monkeypatch.setattr(rows, "find", lambda *_: type("Model", (), {"outside": False}))
+    loads = {16: 1.4, 32: 1.1, 64: 1.02}
+    finer = {"m": {cells: {"load_per_width": load, "friction_per_width": 1.0} for cells, load in loads.items()}}
+    scenes = {1: judged_on_grids(1, finer=finer), 2: judged_on_grids(2)}
+    found = rows.answered(scenes, {}, "m", "load_per_width")
+    errors = {(numbers["a"], numbers["resolution"]): error for numbers, error in found}
+    assert errors == pytest.approx({(1, 16): 0.4, (1, 32): 0.1, (2, 16): 0.5})
