@@ -63,8 +63,8 @@ FIRST_SLOPE = 0.5
 STEEPEST = 0.98
 """Largest change of a mixture with the temperature at the inlet by which its iteration extrapolates."""
 
-LEAST_KEPT = 1e-6
-"""Part of the hot lubricant that at least stays in a film behind a groove."""
+LEAST_KEPT = 1e-5
+"""Least part of the hot lubricant that stays in a film behind a groove, over which the round-off of its heat grows."""
 
 
 @dataclass(frozen=True, kw_only=True)
