@@ -13,6 +13,7 @@ from roughfilm.rom.bearing.thermal.field.asperity_friction import asperity_frict
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.field.mixing import (
     SETTLED,
+    flows_back,
     is_fine,
     power_of_end,
     seen_from_inside,
@@ -47,6 +48,9 @@ RENEWALS = 1
 The equilibrium of a wall that moves freely costs more than the temperatures, which are then those of each film.
 """
 
+RENEWALS_BACK = 3
+"""The same where lubricant flows back into the end of a film, where the temperature follows the film slowly."""
+
 PATIENCE = 15
 """Number of films on a grid after which the temperatures of each film are iterated to the end.
 
@@ -80,9 +84,10 @@ class BetweenWalls:
         sliding, fixed = walls_of(scene, liquid.temperature)
         thins = scene.lubricant.shear_thinning is not None
         sheared, start = sheared_liquid(scene, solution), _start(near, solution, thins=thins)
-        fine = is_fine(near, solution) and not isinstance(scene.geometry, MovingWall)
         same = start is not None and near is not None and near.temperature.shape == solution.grid.shape
         films = near.films + 1 if same and near is not None else 1
+        rough = is_fine(near, solution) and not isinstance(scene.geometry, MovingWall) and films <= PATIENCE
+        renewals = (RENEWALS_BACK if flows_back(solution) else RENEWALS) if rough else None
         at_end = power_of_end(solution, start.viscosities.shear) if start is not None and same else None
         added = [one for one in (at_end, None if boundary is None else boundary.power) if one is not None]
 
@@ -97,7 +102,7 @@ class BetweenWalls:
                 added_power=sum(added[1:], added[0]) if added else None,
                 start=start if last is None else last,
                 tolerance=TOLERANCE,
-                renewals=RENEWALS if fine and films <= PATIENCE else None,
+                renewals=renewals,
             )
 
         found, mixture = with_entering(scene, solution, near, temperatures, lambda one: one.carried)
