@@ -71,6 +71,9 @@ sphinx_gallery_conf = {
     "backreferences_dir": None,
     "within_subsection_order": "FileNameSortKey",
     "thumbnail_size": (400, 280),
+    "image_scrapers": ("scripts.manual.outcomes.scraper", "matplotlib"),  # the second closes the figures
+    "reset_modules": ("matplotlib", "scripts.manual.outcomes.apart"),
+    "reset_modules_order": "both",
 }
 
 

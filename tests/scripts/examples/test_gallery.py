@@ -2,11 +2,9 @@
 
 import contextlib
 import inspect
-import os
 import re
 import runpy
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -16,37 +14,17 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from matplotlib.axes import Axes
-from places import ROOT
 from scipy.interpolate import CubicSpline
 from scipy.special import erf
 
 import roughfilm as rf
 from roughfilm.figures.rendering import probe
+from scripts.manual.outcomes import GALLERY, Outcome, kept_outcome, outcome
 
-GALLERY = ROOT / "scripts" / "examples" / "gallery"
 PROGRAMS = sorted(path.relative_to(GALLERY).with_suffix("").as_posix() for path in GALLERY.glob("*/*.py"))
 LINES = 40
 LIBRARIES = {"to_dataframe": "pandas", "to_xarray": "xarray"}
 LABEL_WITH_UNIT = re.compile(r"\(.+\)")
-
-
-@dataclass(frozen=True)
-class Figure:
-    """What is looked at in a figure after it was drawn: its size, labels, and legends that cover a line."""
-
-    width: float
-    labels: tuple[str, ...]
-    covered: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """The variables of a program at its end, its figures, and the names of files that it left in its folder."""
-
-    values: Mapping[str, Any]
-    figures: tuple[Figure, ...]
-    left: frozenset[str]
 
 
 def text_of(program: str) -> str:
@@ -61,41 +39,17 @@ def marked(program: str) -> Any:
 
 @cache
 def ran(program: str) -> Outcome:
-    """Run a program in its folder, as sphinx-gallery does."""
-    folder = (GALLERY / program).parent
-    before = set(os.listdir(folder))
+    """The outcome that a build of the manual has kept; else run a program in its folder, as sphinx-gallery does."""
+    path = GALLERY / f"{program}.py"
+    if (kept := kept_outcome(path)) is not None:
+        return kept
     plt.close("all")
     try:
-        with mpl.rc_context(), contextlib.chdir(folder), mock.patch.object(plt, "show"):
+        with mpl.rc_context(), contextlib.chdir(path.parent), mock.patch.object(plt, "show"):
             plt.switch_backend("agg")
-            values = runpy.run_path(str(GALLERY / f"{program}.py"), run_name="__main__")
-            figures = tuple(looked_at(plt.figure(number)) for number in plt.get_fignums())
+            return outcome(path, runpy.run_path(str(path), run_name="__main__"))
     finally:
         plt.close("all")
-    return Outcome(values=values, figures=figures, left=frozenset(set(os.listdir(folder)) - before))
-
-
-def looked_at(figure: Any) -> Figure:
-    figure.canvas.draw()
-    labels = [label for ax in figure.axes for label in (ax.get_xlabel(), ax.get_ylabel()) if label and ax.axison]
-    covered = [label for ax in figure.axes for label in covered_by_legend(ax)]
-    return Figure(width=figure.get_figwidth(), labels=tuple(labels), covered=tuple(covered))
-
-
-def covered_by_legend(ax: Axes) -> list[str]:
-    """The labels of the lines that pass below the legend."""
-    legend = ax.get_legend()
-    if legend is None:
-        return []
-    box, along = legend.get_window_extent(), np.linspace(0, 1, 20)[:, None, None]
-    found = []
-    for line in ax.lines:
-        points = line.get_transform().transform(np.asarray(line.get_xydata(), dtype=float))
-        points = points[np.isfinite(points).all(axis=1)]
-        x, y = (points[:-1] + along * np.diff(points, axis=0)).reshape(-1, 2).T
-        if ((x > box.x0) & (x < box.x1) & (y > box.y0) & (y < box.y1)).any():
-            found.append(str(line.get_label()))
-    return found
 
 
 def values_of(program: str) -> Mapping[str, Any]:
