@@ -9,7 +9,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
-from roughfilm.rom.temperature.anderson import Renewals
+from roughfilm.rom.temperature.anderson import AndersonAcceleration
 from roughfilm.rom.temperature.basis import Basis, basis
 from roughfilm.rom.temperature.equations import (
     Audit,
@@ -305,7 +305,7 @@ def _solved(
     into_wall, sweeps, renewed, change = np.zeros(temperature.shape[:2]), 0, 0, np.inf
     fixed = film.solution, supply, film.moved, film.nodes, film.parts
     known: Equations | None = None
-    memory = Renewals(remembered=REMEMBERED)
+    memory = AndersonAcceleration(remembered=REMEMBERED)
     fall, limit = FALL, RENEWALS if most is None else most
     contraction = np.inf if before is None else before.contraction
     low, high = extremes(heat)
@@ -362,14 +362,15 @@ def _state(film: _Film, heat: Array) -> Array:
     return np.append(heat, _capacity(film.liquid) * film.walls[0].outside[0, 0])
 
 
-def _extrapolate(film: _Film, memory: Renewals, point: Array, heat: Array) -> None:
+def _extrapolate(film: _Film, memory: AndersonAcceleration, point: Array, heat: Array) -> None:
     """Extrapolate the heat, and the temperature of a turning wall, from those before and after each renewal.
 
     A renewal and its sweeps are a map of the heat that is almost affine once the limited factors stay the same.
     Conduction and what flows in and out make it a contraction, whose slow parts, one of each closed streamline, are
     what Anderson's method removes.
     """
-    found = memory.following(point, _state(film, heat))
+    image = _state(film, heat)
+    found = memory.following(image - point, image)
     heat[...] = found[:-1].reshape(heat.shape)
     if film.turning:
         film.walls[0].outside[...] = found[-1] / _capacity(film.liquid)

@@ -206,7 +206,8 @@ def _apart(result: Result, finer: Result) -> tuple[list[str], list[str], int, in
             continue
         one, other = result[name], finer[name]
         if one.uncertainty is None or other.uncertainty is None:
-            if not (infinite and name in {*CARRIED, *PUMPED}):
+            stated = any(warning.startswith(f"{name}: unknown uncertainty") for warning in result.warnings)
+            if not (stated or (infinite and name in {*CARRIED, *PUMPED})):
                 unknown.append(f"{name} has no uncertainty")
             continue
         difference, slack = abs(other.value - one.value), 1e-9 * abs(one.value)

@@ -13,15 +13,13 @@ from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.asperity_friction import asperity_friction
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.field.mixing import (
-    COARSE_NODES,
     SETTLED,
-    at_mixture,
-    mixture_of,
-    new_lubricant,
+    flows_back,
+    is_fine,
     power_of_end,
-    returning,
     seen_from_inside,
     temperature_of,
+    with_entering,
 )
 from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
@@ -50,6 +48,9 @@ RENEWALS = 1
 
 The equilibrium of a wall that moves freely costs more than the temperatures, which are then those of each film.
 """
+
+RENEWALS_BACK = 3
+"""The same where lubricant flows back into the end of a film, where the temperature follows the film slowly."""
 
 PATIENCE = 15
 """Number of films on a grid after which the temperatures of each film are iterated to the end.
@@ -98,43 +99,32 @@ class BetweenWalls:
 
     def _heated(self, solution: Solution, near: HeatedFilm | None) -> HeatedFilm:
         scene, liquid, heat = self.scene, self.scene.lubricant.liquid, self.scene.heat or Heat()
-        new = new_lubricant(scene, solution, liquid.temperature)
-        back, boundary = returning(scene, solution, new), asperity_friction(scene, solution, near)
+        boundary = asperity_friction(scene, solution, near)
         sliding, fixed = walls_of(scene, liquid.temperature)
         thins = scene.lubricant.shear_thinning is not None
         sheared, start = sheared_liquid(scene, solution), _start(near, solution, thins=thins)
-        fine = near is not None and solution.state.pressure.size > COARSE_NODES
-        free = isinstance(scene.geometry, MovingWall)
         same = start is not None and near is not None and near.temperature.shape == solution.grid.shape
         films = near.films + 1 if same and near is not None else 1
+        rough = is_fine(near, solution) and not isinstance(scene.geometry, MovingWall) and films <= PATIENCE
+        renewals = (RENEWALS_BACK if flows_back(solution) else RENEWALS) if rough else None
         at_end = power_of_end(solution, start.viscosities.shear) if start is not None and same else None
         added = [one for one in (at_end, None if boundary is None else boundary.power) if one is not None]
 
-        def temperatures(inlet: float | None, last: TemperatureAcross | None) -> TemperatureAcross:
+        def temperatures(entering: Array, last: TemperatureAcross | None) -> TemperatureAcross:
             return temperature_across(
                 solution,
                 sheared,
                 sliding_wall=sliding,
                 fixed_wall=fixed,
-                entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
+                entering=entering,
                 carried_over=heat.carried_over,
                 added_power=sum(added[1:], added[0]) if added else None,
                 start=start if last is None else last,
                 tolerance=TOLERANCE,
-                renewals=RENEWALS if fine and not free and films <= PATIENCE else None,
+                renewals=renewals,
             )
 
-        known = mixture_of(near, solution)
-        if back is None:
-            found, mixture = temperatures(None, None), None
-        else:
-            found, mixture = at_mixture(
-                temperatures,
-                lambda one: back.mixture(liquid, one.carried),
-                back.first if known is None else known,
-                viscosities=lambda one: seen_from_inside(one.viscosities, solution),
-                once=fine and known is not None,
-            )
+        found, mixture = with_entering(scene, solution, near, temperatures, lambda one: one.carried)
         balance, flows = found.balance, film_flows(solution, heat.carried_over)
         leaving = float(np.maximum(-flows.entering, 0.0).sum())
         spilled = balance.stored - float((flows.stored * liquid.heat(found.mean)[0]).sum())

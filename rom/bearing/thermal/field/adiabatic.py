@@ -11,15 +11,11 @@ from roughfilm.rom.bearing.shear_thinning import mean_gap
 from roughfilm.rom.bearing.thermal.field.asperity_friction import asperity_friction
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm, hottest, start_of
 from roughfilm.rom.bearing.thermal.field.mixing import (
-    COARSE_NODES,
     SETTLED,
-    at_mixture,
     is_seen_from_inside,
-    mixture_of,
-    new_lubricant,
     replaced,
-    returning,
     seen_from_inside,
+    with_entering,
 )
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.bearing.thermal.tables import Heat
@@ -57,21 +53,19 @@ class AdiabaticWalls:
             If the temperatures or the mixture at the inlet do not converge.
         """
         scene, liquid = self.scene, self.scene.lubricant.liquid
-        new = new_lubricant(scene, solution, liquid.temperature)
-        cooled, back = replaced(scene, solution, liquid), returning(scene, solution, new)
         before = near if near is not None and near.temperature.shape == solution.grid.shape else None
         slopes = before.slopes if before is not None and before.films >= FREE_FILMS else None
         boundary, at_rest = asperity_friction(scene, solution, near), viscosity_at_rest(scene, solution, near)
         at_rest, at_end = kept_at_end(solution, at_rest)
-        fine = near is not None and solution.state.pressure.size > COARSE_NODES
+        cooled = replaced(scene, solution, liquid)
 
-        def temperatures(inlet: float | None, last: MeanTemperature | None) -> MeanTemperature:
+        def temperatures(entering: Array, last: MeanTemperature | None) -> MeanTemperature:
             return mean_temperature(
                 solution,
                 liquid,
-                entering=new if inlet is None or back is None else np.where(back.inlet, inlet, new),
+                entering=entering,
                 exchange=cooled,
-                wall=new,
+                wall=entering,
                 carried_over=(scene.heat or Heat()).carried_over,
                 added_power=at_end if boundary is None else at_end + boundary.power,
                 at_rest=at_rest,
@@ -79,17 +73,7 @@ class AdiabaticWalls:
                 slopes=slopes,
             )
 
-        known = mixture_of(near, solution)
-        if back is None:
-            found, mixture = temperatures(None, None), None
-        else:
-            found, mixture = at_mixture(
-                temperatures,
-                lambda one: back.mixture(liquid, one.temperature),
-                back.first if known is None else known,
-                viscosities=lambda one: seen_from_inside(one.viscosities, solution),
-                once=fine and known is not None,
-            )
+        found, mixture = with_entering(scene, solution, near, temperatures, lambda one: one.temperature)
         viscosities, stress = with_thinning(scene, solution, found, near)
         viscosities = seen_from_inside(viscosities, solution)
         generated = float(found.dissipation.sum())

@@ -1,8 +1,8 @@
 """The film and the temperatures that agree with each other: a fixed point of viscosities."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from roughfilm.rom.bearing.thermal.field.nodal import logarithms, own_logarithms
 from roughfilm.rom.cavitation.fluid import Viscosities
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.thermal.law import celsius
+from roughfilm.rom.temperature.anderson import AndersonAcceleration
 
 FIELD_TOLERANCE = 2e-5
 """Root mean square over the film of the difference of ln η between a film and its temperatures, at which it stops."""
@@ -47,9 +48,6 @@ REMEMBERED = 6
 
 SAMPLES = 64
 """Number of nodes along each direction at least that count in the least squares of Anderson's method."""
-
-SINGULAR = 1e-12
-"""Smallest eigenvalue over the largest one of the normal equations of Anderson's method."""
 
 HOTTEST = 773.15
 """Temperature above which no lubricant stays liquid, K: the iteration ends as a thermal runaway."""
@@ -130,11 +128,6 @@ class Point:
     fields: Array
     inlet: float | None = None
 
-    def minus(self, other: Self) -> Self:
-        """The difference of two points."""
-        entered = None if self.inlet is None or other.inlet is None else self.inlet - other.inlet
-        return replace(self, fields=self.fields - other.fields, inlet=entered)
-
 
 @dataclass(frozen=True, kw_only=True)
 class Coupled(Generic[FilmT, HeatedT]):
@@ -192,7 +185,7 @@ def coupled(
 
     Source: Anderson 1965, doi:10.1145/321296.321305; Walker and Ni 2011, doi:10.1137/10078356X.
     """
-    memory = Memory()
+    memory = AndersonAcceleration(remembered=REMEMBERED)
     changes: list[float] = []
     hottest: list[float] = []
     film, heated = _with_temperatures(film, again, heating, near)
@@ -216,7 +209,7 @@ def coupled(
             continue
         error = _error_of_load(changes, tolerance)
         point, image = _at_inlet(used, following, heated.inlet)
-        step = point, memory.following(point, image, areas)
+        step = point, _following(memory, point, image, areas)
         film, heated = _stepped(film, heated, again, heating, step, error, hottest)
     raise ConvergenceError(
         f"temperature: the viscosity of the film and that at its temperatures differ by {changes[-1]:.1e} after "
@@ -326,41 +319,22 @@ def _runaway(hottest: Sequence[float]) -> ConvergenceError:
     )
 
 
-@dataclass(kw_only=True)
-class Memory:
-    """The last iterations of a fixed point x = g(x)."""
-
-    points: list[Point] = field(default_factory=list)
-    images: list[Point] = field(default_factory=list)
-
-    def following(self, point: Point, image: Point, weights: Array) -> Point:
-        """The next point by Anderson's method; ``weights``, shape (nx, ny), are those of the squares."""
-        self.points = [*self.points[-REMEMBERED:], point]
-        self.images = [*self.images[-REMEMBERED:], image]
-        if len(self.points) == 1:
-            return image
-        along, across = (slice(None, None, max(1, count // SAMPLES)) for count in weights.shape)
-        some = along, across
-        sampled = (weights[some] / weights[some].sum()).ravel()
-        rests = np.stack(
-            [_weighted(other.minus(one), some, sampled) for one, other in zip(self.points, self.images, strict=True)]
-        )
-        differences = rests[-1] - rests[:-1]
-        shares = np.linalg.lstsq(differences @ differences.T, differences @ rests[-1], rcond=SINGULAR)[0]
-        corrections = [image.minus(other) for other in self.images[:-1]]
-        correction = sum(share * one.fields for share, one in zip(shares, corrections, strict=True))
-        if _size(correction) > _size(image.fields - point.fields):
-            return image
-        if image.inlet is None:
-            return Point(image.fields - correction)
-        entered = sum(share * (one.inlet or 0.0) for share, one in zip(shares, corrections, strict=True))
-        return Point(image.fields - correction, image.inlet - entered)
+def _following(memory: AndersonAcceleration, point: Point, image: Point, areas: Array) -> Point:
+    """The next point of the iteration, by Anderson's method or, where that is farther away than the last, the image."""
+    rest = image.fields - point.fields
+    entered = 0.0 if point.inlet is None or image.inlet is None else image.inlet - point.inlet
+    found = memory.following(_weighted(rest, entered, areas), np.append(image.fields, image.inlet or 0.0))
+    fields = found[:-1].reshape(rest.shape)
+    if _size(fields - image.fields) > _size(rest):
+        return image
+    return Point(fields, None if image.inlet is None else float(found[-1]))
 
 
-def _weighted(rest: Point, some: tuple[slice, slice], weights: Array) -> Array:
-    """The values of some nodes and of the inlet, whose sum of squares is weighted."""
-    at_nodes = (rest.fields[:, *some].reshape(len(rest.fields), -1) * np.sqrt(weights)).ravel()
-    return np.append(at_nodes, SOFTER_AT_INLET * (rest.inlet or 0.0))
+def _weighted(rest: Array, entered: float, areas: Array) -> Array:
+    """The differences of some nodes and of the inlet, whose sum of squares is weighted by the areas."""
+    some = tuple(slice(None, None, max(1, count // SAMPLES)) for count in areas.shape)
+    weights = np.sqrt(areas[some] / areas[some].sum())
+    return np.append(rest[:, *some] * weights, SOFTER_AT_INLET * entered)
 
 
 def _mean_size(rest: Array, areas: Array) -> float:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
 from roughfilm.rom.bearing.equilibrium.films import FilmState, ModelFilms
 from roughfilm.rom.bearing.equilibrium.grids import Search
@@ -152,19 +153,31 @@ class HeatedBearing:
         """heated(films, search), the film of a grid that carries a load with the viscosities of its temperatures.
 
         The load is sought among films with given viscosities, and the viscosities are those of the film that was found.
+        A load that is small against what the residual of a film changes is sought again with its smallest residual.
         """
 
         def heated(films: SeparableBearing[Any], search: Search[Any]) -> AnyState:
             assert isinstance(films, AnyFilms)
 
+            def carrying(
+                near: AnyState | None, viscosities: ViscosityField | None, error: float, growth: float = 1.0
+            ) -> AnyState:
+                varied = _with_viscosities(films, viscosities)
+                try:
+                    rough: AnyState = search(_with_residual(varied, error), near, error=error, growth=growth)
+                except (InputError, ConvergenceError):
+                    if error == 0:
+                        raise
+                else:
+                    return rough
+                exact: AnyState = search(varied, near, growth=growth)
+                return exact
+
             def again(near: AnyState, values: Array, error: float) -> AnyState:
-                varied = _with_residual(_with_viscosities(films, in_scene(near.solution, values)), error)
-                found: AnyState = search(varied, near, error=error, growth=growth(near.solution, values))
-                return found
+                return carrying(near, in_scene(near.solution, values), error, growth(near.solution, values))
 
             error = 0.0 if self.last.heated is None else FIRST_ERROR
-            varied = _with_residual(_with_viscosities(films, self.last.viscosities), error)
-            first = search(varied, None, error=error)
+            first = carrying(None, self.last.viscosities, error)
             film, solution = self._coupled(first, again, error)
             loaded: AnyState = replace(film, solution=solution)
             return loaded

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,17 @@ from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.lubricants.thermal.law import celsius
 from roughfilm.rom.temperature.dissipation import dissipation, film_flows
 
-HeatedT = TypeVar("HeatedT")
+
+class WithViscosities(Protocol):
+    """The temperatures of a film by an energy equation."""
+
+    @property
+    def viscosities(self) -> Viscosities:
+        """The viscosities at these temperatures at the nodes."""
+        ...
+
+
+HeatedT = TypeVar("HeatedT", bound=WithViscosities)
 
 MIXED = 1e-4
 """Error of the temperature of a mixture, K, at which its iteration stops."""
@@ -53,8 +63,8 @@ FIRST_SLOPE = 0.5
 STEEPEST = 0.98
 """Largest change of a mixture with the temperature at the inlet by which its iteration extrapolates."""
 
-LEAST_KEPT = 1e-6
-"""Part of the hot lubricant that at least stays in a film behind a groove."""
+LEAST_KEPT = 1e-5
+"""Least part of the hot lubricant that stays in a film behind a groove, over which the round-off of its heat grows."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -221,6 +231,51 @@ def mixture_of(near: HeatedFilm | None, solution: Solution) -> Mixture | None:
     found = between_nodes(known.response, near.grid, solution.problem.shape.joined, x.ravel(), y.ravel())
     response = found.reshape(-1, *x.shape)
     return replace(known, response=np.stack([_inside(one) for one in response]) if flows_back(solution) else response)
+
+
+def with_entering(
+    scene: Bearing,
+    solution: Solution,
+    near: HeatedFilm | None,
+    solve: Callable[[Array, HeatedT | None], HeatedT],
+    carried: Callable[[HeatedT], Array],
+) -> tuple[HeatedT, Mixture | None]:
+    """The temperatures of a film with the lubricant that enters it, and the mixture at its inlet.
+
+    Parameters
+    ----------
+    near : temperatures of a film near this one.
+    solve : solve(entering, near), the temperatures of the film for those of the lubricant that enters at the nodes, K,
+        shape (nx, ny), from temperatures near them.
+    carried : carried(temperatures), the temperatures of the lubricant that leaves at the nodes, K, shape (nx, ny).
+
+    Returns
+    -------
+    temperatures, mixture
+        The temperatures of the film and the mixture, None where no hot lubricant enters again.
+
+    Raises
+    ------
+    ConvergenceError
+        If the temperatures or the mixture do not converge.
+    """
+    liquid = scene.lubricant.liquid
+    new = new_lubricant(scene, solution, liquid.temperature)
+    back, known = returning(scene, solution, new), mixture_of(near, solution)
+    if back is None:
+        return solve(new, None), None
+    return at_mixture(
+        lambda inlet, last: solve(np.where(back.inlet, inlet, new), last),
+        lambda one: back.mixture(liquid, carried(one)),
+        back.first if known is None else known,
+        viscosities=lambda one: seen_from_inside(one.viscosities, solution),
+        once=known is not None and is_fine(near, solution),
+    )
+
+
+def is_fine(near: HeatedFilm | None, solution: Solution) -> bool:
+    """Whether the temperatures of a film are not iterated to the end, as another one near it is, and its grid fine."""
+    return near is not None and solution.state.pressure.size > COARSE_NODES
 
 
 def at_mixture(

@@ -189,6 +189,25 @@ def test_new_lubricant_alone_enters_where_none_is_carried_over(journal):
     assert SUPPLIED < value(half, "inlet_temperature") < value(journal, "inlet_temperature") - 2
 
 
+def test_a_groove_that_replaces_all_hot_lubricant_has_its_own_temperature():
+    """A part of it at least stays, so that the heat transfer that stands for the rest is balanced to its round-off."""
+    groove = {"kind": "groove", "angle": "99 deg", "length": "10 mm", "extent": "40 mm", "temperature": "60 degC"}
+    bore = {"shape": "lobes", "radius": "50 mm", "clearance": "76 um", "width": "60 mm", "eccentricity": [0.1, -0.5]}
+    supply = [{**groove, "pressure": "0.09 MPa"}]
+    result = solved(scene(bore, speed="-4 m/s", supply=supply, heat={"carried_over": 0}), 24)
+    temperature = result.fields["temperature"].values
+    assert np.isclose(temperature, 60, atol=1e-2).any()
+    assert result.numerics.details["energy_imbalance"] < 1e-8
+
+
+def test_a_load_of_almost_nothing_is_found():
+    """1 Pa, which the residual of a film that suffices for a part of the change of a load would hide."""
+    free = {key: one for key, one in JOURNAL.items() if key != "eccentricity"}
+    result = solved(scene(free, load={"pressure": "1 Pa"}, heat={"carried_over": 0}), 16)
+    assert value(result, "load") == pytest.approx(0.1 * 0.08, rel=1e-6)
+    assert 0 < value(result, "eccentricity") < 1e-4
+
+
 def test_the_film_under_a_load_is_that_of_its_thickness():
     free = {key: one for key, one in JOURNAL.items() if key != "eccentricity"}
     loaded = solved(scene(free, load={"force": "20 kN"}), 32)
