@@ -102,6 +102,7 @@ def write_page(
         table=None if asperities is None else svg(stribeck_figures.asperity_table(asperities)),
         touching=touching,
         heated=heated,
+        flash=any(name == "flash_temperature" for _, _, name, _ in columns),
     )
 
 

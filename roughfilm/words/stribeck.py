@@ -75,9 +75,11 @@ def hottest_spots(points: Sequence[StribeckPoint]) -> tuple[StribeckPoint, Flash
 
 
 def flash_of(point: StribeckPoint) -> str:
-    """The flash temperature of a point, K above the walls, and its range on the next line; "–" without contact."""
+    """The flash temperature of a point, K above the walls, and its range below it; "–" without contact, 0 at rest."""
     flash = point.flash
-    return "–" if flash is None else f"{flash.mean:.3g}\n{flash.low:.3g} to {flash.high:.3g}"
+    if flash is None or flash.high == 0:
+        return "–" if flash is None else "0"
+    return f"{flash.mean:.3g}\n{flash.low:.3g} to {flash.high:.3g}"
 
 
 def flash_words(curve: StribeckCurve) -> str:

@@ -213,8 +213,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
         if shaft and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]:
             raise _leaves(force)
         step *= GROWTH
-    unresisted = np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2])
-    if shaft and unresisted:
+    if shaft and np.hypot(*solved.force(instant.state.pressure)[:2]) <= UNRESISTED * np.hypot(*force[:2]):
         raise _leaves(force)
     idle, more = idle_pads(film, instant), ""
     if idle and film.scene.lubricant.cavitation_pressure < 0:

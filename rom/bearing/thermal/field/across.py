@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import mean_gap
@@ -58,6 +59,14 @@ Lubricant that circulates needs many renewals, whose slow change would otherwise
 """
 
 
+STAYS = (
+    "temperature: thermal runaway between walls that take no heat, as walls that approach displace lubricant to all "
+    "sides of a place, at which it stays; let them slide faster, give heat.fixed_wall or heat.sliding_wall, which take "
+    "heat, or take heat_balance or roughfilm march"
+)
+"""Why the temperature of a film has no steady values, and the remedy."""
+
+
 @dataclass(frozen=True)
 class BetweenWalls:
     """The energy equation across the films of a scene.
@@ -77,8 +86,18 @@ class BetweenWalls:
         InputError
             If a wall does not suit the film.
         ConvergenceError
-            If the temperatures or the mixture at the inlet do not converge.
+            If the temperatures or the mixture at the inlet do not converge, or walls that take no heat approach each
+            other so fast that the lubricant of a place stays there and has no steady temperature.
         """
+        try:
+            return self._heated(solution, near)
+        except (InputError, ConvergenceError):
+            insulated = all(isinstance(wall, InsulatedWall) for wall in walls_of(self.scene, 0.0))
+            if self.scene.motion.approach <= 0 or not insulated:
+                raise
+            raise ConvergenceError(STAYS, outcome=Outcome.DIVERGED) from None
+
+    def _heated(self, solution: Solution, near: HeatedFilm | None) -> HeatedFilm:
         scene, liquid, heat = self.scene, self.scene.lubricant.liquid, self.scene.heat or Heat()
         boundary = asperity_friction(scene, solution, near)
         sliding, fixed = walls_of(scene, liquid.temperature)

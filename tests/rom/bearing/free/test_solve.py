@@ -3,8 +3,12 @@
 import numpy as np
 import pytest
 
+from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.ladder import find
+from roughfilm.rom.bearing.free import equilibrium
+from roughfilm.rom.bearing.free.film import free_film
 from roughfilm.rom.bearing.free.solve import solve_free
+from roughfilm.rom.bearing.free.walls import wall_of
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 
@@ -149,3 +153,14 @@ def test_the_uncertainty_contains_the_motion_of_the_shaft_along_the_film():
     result = find("bearing", "reynolds_cavitating").solve(scene, Request(resolution=36))
     assert min(result[name].uncertainty for name in ("eccentricity_x", "eccentricity_y", "eccentricity")) >= apart
     assert result["film_min"].uncertainty >= free.apart["film_min"] * (1 - 1e-9)
+
+
+def test_a_film_of_one_coordinate_that_does_not_settle_is_one_line(monkeypatch):
+    """It has a force without a direction, unlike a shaft."""
+    monkeypatch.setattr(equilibrium, "MAX_STEPS", 0)
+    pad = {"shape": "linear", "length": "20 mm", "film": "10 um", "rise": "10 um"}
+    entries = {"geometry": pad, "lubricant": OIL, "motion": {"speed": "1 m/s"}, "load": {"pressure": "1 MPa"}}
+    scene = read_scene({"name": "pad", "kind": "bearing", **entries})
+    film = free_film(scene, (16, 1), wall=wall_of(scene, None))
+    with pytest.raises(ConvergenceError, match=r"^load: the motion towards the equilibrium does not settle"):
+        equilibrium.equilibrium(film, None, tolerance=1e-9, load=np.array([-2e4]))

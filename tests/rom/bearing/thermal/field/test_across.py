@@ -2,6 +2,7 @@
 
 import pytest
 
+from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
@@ -22,6 +23,7 @@ GROOVE = {"kind": "groove", "angle": "90 deg", "length": "8 mm", "extent": "40 m
 LOBES = {"shape": "lobes", "lobes": 3, "arc": "100 deg", "radius": "50 mm", "width": "80 mm", "clearance": "60 um"}
 STEEL = {"conductivity": "45 W/(m*K)"}
 CONDUCTING = {"kind": "conducting", "thickness": "20 mm", **STEEL, "heat_transfer": "200 W/(m^2*K)"}
+WALL = {"kind": "temperature", "temperature": "40 degC"}
 HALF_SPACE = {"kind": "half_space", **STEEL, "density": "7800 kg/m^3", "heat_capacity": "460 J/(kg*K)"}
 
 
@@ -143,3 +145,13 @@ def test_the_model_says_what_it_needs(change, words):
 
 def test_gaps_may_carry_a_part_of_the_hot_lubricant_over():
     assert ACROSS.applies(scene(LOBES | {"eccentricity": [0.2, 0.1]}, heat={"carried_over": 0.5})).applies
+
+
+@pytest.mark.parametrize("geometry", [WEDGE, JOURNAL], ids=lambda geometry: geometry["shape"])
+def test_lubricant_that_stays_between_insulated_walls_that_approach_has_no_steady_temperature(geometry):
+    """Where sliding displaces less than the approach, a place lies inside the film from which lubricant only leaves."""
+    motion = {"speed": "1 cm/s", "approach": "1 mm/s"}
+    with pytest.raises(ConvergenceError, match=r"as walls that approach displace .* at which it stays; let them slide"):
+        solved(scene(geometry, motion=motion), cells=12)
+    cooled = solved(scene(geometry, motion=motion, heat={"fixed_wall": WALL}), cells=12)
+    assert 40 < value(cooled, "temperature_max") < 60
