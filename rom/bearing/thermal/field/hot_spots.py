@@ -16,9 +16,10 @@ GRIDS = 3
 """Largest number of grids from which the temperature of a node is extrapolated."""
 
 MAX_TURNS = 1.0
-"""Flow around a bore over the flow out of its sides above which no grid resolves the largest temperature.
+"""Flow around a bore over the net flow out of its sides above which no grid resolves the largest temperature.
 
-It is the mean number of turns of the lubricant. With 0.2 to 0.7 turns the uncertainties of five bores held on 32 cells;
+It is the mean number of turns of the lubricant; what leaves through a side beside a place where as much enters does not
+count, since streamlines between them close. With 0.2 to 0.7 turns the uncertainties of five bores held on 32 cells;
 with 1.2, 2.4 and 2.9 turns the largest temperature still grew by 3 to 8 K from 64 to 128 cells.
 """
 
