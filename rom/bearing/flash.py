@@ -159,9 +159,10 @@ def _shared(
 
 
 def flash_temperature(scene: Bearing, pressure: float, friction: float) -> FlashTemperature | None:
-    """The flash temperature at a contact pressure over the nominal area, Pa; None if the scene has no solid for it.
+    """The flash temperature at a contact pressure over the nominal area, Pa; None if no asperities touch.
 
-    The contact of the rough wall is solved at this pressure for its spots.
+    It is None, too, if the scene has no ``asperities.solid_heat``. The contact of the rough wall is solved at this
+    pressure for its spots.
 
     Raises
     ------
@@ -169,10 +170,8 @@ def flash_temperature(scene: Bearing, pressure: float, friction: float) -> Flash
         If the contact does not converge.
     """
     asperities = scene.asperities
-    if asperities is None or asperities.solid_heat is None:
+    if asperities is None or asperities.solid_heat is None or pressure == 0:
         return None
-    if pressure == 0:
-        return FlashTemperature(mean=0.0, low=0.0, high=0.0)
     return rise_of_spots(
         _spots_at(scene, pressure),
         friction=friction,

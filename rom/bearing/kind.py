@@ -169,13 +169,25 @@ NUMBERS = {
 
 def remarks(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
     """The approach of the walls, the pressure at which the film ruptures, and the part that the quantities hold for."""
-    flash = ("flash_temperature is an estimate: it has no uncertainty, but a range from its low to its high estimate",)
     return (
         *_approach(entries),
         *_rupture(entries, quantities),
         *_of_the_whole(entries, quantities),
-        *(flash if "flash_temperature" in quantities and quantities["flash_temperature"].value else ()),
+        *_flash(entries, quantities),
     )
+
+
+def _flash(entries: Mapping[str, Any], quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
+    """What the flash temperature is, or why a scene with ``asperities.solid_heat`` has none."""
+    if "flash_temperature" in quantities:
+        return (
+            "flash_temperature is an estimate: it has no uncertainty, but a range from its low to its high estimate",
+        )
+    contact = entries.get("asperities")
+    given = contact.get("solid_heat") if isinstance(contact, Mapping) else getattr(contact, "solid_heat", None)
+    if given is None or "contact_pressure_max" not in quantities:
+        return ()
+    return ("no asperities touch, so that there is no flash temperature",)
 
 
 def squeezed(entries: Mapping[str, Any]) -> bool:

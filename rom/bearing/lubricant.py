@@ -38,6 +38,9 @@ Conductivity = Annotated[float, InUnit("W/(m*K)")]
 AGREEMENT = 1e-3
 """Relative difference up to which a given viscosity agrees with that of a law."""
 
+MAX_BEYOND = 100.0
+"""Temperature beyond the valid range of a law, K, from which on a film is no answer."""
+
 
 def _law(entries: Any) -> Any:
     """The table of a law; a law without parameters may be given by its name alone."""
@@ -290,7 +293,10 @@ class BearingLubricant(Fluid):
         ]
 
     def temperature_warnings(self, lowest: float, highest: float) -> list[str]:
-        """A warning if temperatures, K, lie outside of the valid range of the law of the viscosity."""
+        """A warning if temperatures, K, lie outside of the valid range of the law of the viscosity.
+
+        More than ``MAX_BEYOND`` outside of it, the warning says that the film is no answer.
+        """
         law = self.thermoviscosity
         if law is None or self.temperature is None:
             return []
@@ -302,4 +308,10 @@ class BearingLubricant(Fluid):
             return []
         ends = f"{celsius(lowest)}" if lowest == highest else f"{celsius(lowest)} to {celsius(highest)}"
         allowed = f"from {celsius(low)}" if math.isinf(high) else f"from {celsius(low)} to {celsius(high)}"
-        return [f"temperature: {ends}; the law {law.law} of the viscosity is valid {allowed}"]
+        valid = f"temperature: {ends}; the law {law.law} of the viscosity is valid {allowed}"
+        if max(low - lowest, highest - high) <= MAX_BEYOND:
+            return [valid]
+        return [
+            f"{valid}: this is no answer, as it is more than {MAX_BEYOND:g} K beyond; change the scene "
+            "so that the film stays within, or give a law that is valid there"
+        ]

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -386,7 +386,8 @@ class Outputs:
         that an iteration around the film leaves, from the films on their grids, the finest first.
     details : details(solution): further numbers of the solver by name.
     warnings : warnings(scene, solution): warnings in addition to those of every film.
-    estimates : quantities that may have no uncertainty for a reason that a range or a warning of their own states.
+    of_finest : of_finest(scene, solution): estimates without uncertainty, of the finest film alone.
+    estimates : quantities that may have no uncertainty for a reason that a warning of their own states.
     """
 
     quantities: Callable[[Bearing, Solution], dict[str, Quantity]] = bearing_quantities
@@ -399,7 +400,13 @@ class Outputs:
     )
     details: Callable[[Solution], Mapping[str, float]] = lambda _solution: {}
     warnings: Callable[[Bearing, Solution], Sequence[str]] = lambda _scene, _solution: ()
+    of_finest: Callable[[Bearing, Solution], Mapping[str, Quantity]] = lambda _scene, _solution: {}
     estimates: Collection[str] = ()
+
+    @property
+    def searched(self) -> "Outputs":
+        """The functions that evaluate a film on the way to another one: without estimates and warnings."""
+        return replace(self, warnings=FILM_OUTPUTS.warnings, of_finest=FILM_OUTPUTS.of_finest)
 
 
 FILM_OUTPUTS = Outputs()

@@ -25,7 +25,7 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.supply.quantities import supply_warnings
 from roughfilm.rom.bearing.totals.reported import in_order
 from roughfilm.rom.bearing.totals.whole import whole_bearing
-from roughfilm.rom.bearing.uncertainty import POSITIONS, uncertainties
+from roughfilm.rom.bearing.uncertainty import POSITIONS, beyond_half_a_turn, uncertainties
 from roughfilm.rom.bearing.warnings import (
     pad_warnings,
     pressure_warnings,
@@ -142,6 +142,7 @@ def solve(
     iterated = outputs.iteration_uncertainties([grid for grid, _ in found.levels], quantities)
     more = {name: of_factors.get(name, 0.0) + iterated.get(name, 0.0) for name in {*of_factors, *iterated}}
     uncertainty = uncertainties(found.levels, more, found.balance, exact=found.exact, apart=found.apart)
+    estimated = outputs.of_finest(found.scene, solution)
     warnings = [
         *grid_warnings(solution),
         *thickness_warnings(found.scene, solution),
@@ -156,11 +157,16 @@ def solve(
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)
     explained = unknown_by_infinite_flows(solution) | {*POSITIONS, *outputs.estimates}
+    if turned := [name for name in beyond_half_a_turn(uncertainty) if math.isfinite(more.get(name, 0.0))]:
+        warnings.append(f"{', '.join(turned)}: unknown uncertainty, as it is more than half a turn; take more cells")
+        explained |= {*turned}
     if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value) and name not in explained]:
         warnings.append(f"{', '.join(unknown)}: unknown uncertainty, as the roughness has too few points")
     return Result(
         model=solver.name,
-        quantities=in_order(scene, whole_bearing(found.scene, with_uncertainties(quantities, uncertainty))),
+        quantities=in_order(
+            scene, whole_bearing(found.scene, {**with_uncertainties(quantities, uncertainty), **estimated})
+        ),
         fields=_fields(scene, solution, outputs.fields(found.scene, solution)),
         numerics=numerics_of(
             solution,

@@ -28,6 +28,12 @@ MIN_CELLS_OF_POSITIONS = 15
 MOMENTS = ("moment_x", "moment_y")
 """Quantities whose round-off is that of the load; of a pad in equilibrium they are those of the scene."""
 
+ANGLES = ("attitude_angle", "film_min_angle")
+"""Quantities that are angles, degrees."""
+
+HALF_TURN = 180.0
+"""Uncertainty of an angle, degrees, from which on it is unknown."""
+
 LEAST_FILM = "film_min"
 """Quantity that is exact for a given film, and uncertain for one that is sought."""
 
@@ -85,7 +91,19 @@ def uncertainties(
             result[name] = of_grid + of_balance + of_factors.get(name, 0.0)
             if name in HOTTEST_PLACE:
                 result[name] = min(result[name], _farthest(solution, name, quantity.value))
-    return result
+    return result | dict.fromkeys(beyond_half_a_turn(result), math.inf)
+
+
+def beyond_half_a_turn(uncertainty: Mapping[str, float]) -> list[str]:
+    """The angles whose uncertainty is half a turn or more, so that they are unknown, and the place at such an angle.
+
+    Parameters
+    ----------
+    uncertainty : uncertainties by quantity, those of angles in degrees.
+    """
+    names = [name for name in ANGLES if uncertainty.get(name, 0.0) >= HALF_TURN]
+    places = {"film_min_angle": "film_min_x"}
+    return names + [places[name] for name in names if places.get(name) in uncertainty]
 
 
 def _farthest(solution: Solution, name: str, place: float) -> float:

@@ -26,7 +26,7 @@ from roughfilm.rom.bearing.mixed.stribeck import (
 )
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.words.average import count_in_words
-from roughfilm.words.stribeck import SpeedScale, lift_off, number_of, own_point, speed_scale
+from roughfilm.words.stribeck import SpeedScale, flash_of, lift_off, number_of, own_point, speed_scale
 
 DRAWN_CONTACT_SHARE = 0.3
 """The first film drawn is the one whose asperities carry nearest to this fraction of the load."""
@@ -41,8 +41,6 @@ COLUMNS = (
     ("temperature, film", "°C", "temperature", 1.0),
     ("temperature, outlet", "°C", "outlet_temperature", 1.0),
     ("spots, in contact, hotter by", "K", "flash_temperature", 1.0),
-    ("at least", "K", "flash_temperature_low", 1.0),
-    ("at most", "K", "flash_temperature_high", 1.0),
 )
 """Title, unit, name and factor of each column of the table of numbers."""
 
@@ -173,4 +171,7 @@ def _closed(values: Array) -> Array:
 
 
 def _row(point: StribeckPoint, columns: Sequence[tuple[str, str, str, float]]) -> list[str]:
-    return [number_of(point, name, factor, lines=True) for _, _, name, factor in columns]
+    return [
+        flash_of(point) if name == "flash_temperature" else number_of(point, name, factor, lines=True)
+        for _, _, name, factor in columns
+    ]

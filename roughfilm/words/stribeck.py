@@ -4,7 +4,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from roughfilm.rom.bearing.asperity_contact import FLASH
 from roughfilm.rom.bearing.flash import FlashTemperature, flash_warnings
 from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
@@ -46,12 +45,11 @@ def own_point(scene: Bearing, curve: StribeckCurve) -> StribeckPoint | None:
 
 
 def number_of(point: StribeckPoint, name: str, factor: float = 1.0, *, lines: bool = False) -> str:
-    """A number of a point times a factor, with its uncertainty, which may be unknown; flash temperatures have none.
+    """A number of a point times a factor, with its uncertainty, which may be unknown.
 
     The scatter of a mean over windows, which may be unknown too, stands behind it; with ``lines`` on the next line.
     """
-    uncertainty = None if name in FLASH else factor * point.uncertainty.get(name, math.inf)
-    text = with_error(factor * getattr(point, name), uncertainty)
+    text = with_error(factor * getattr(point, name), factor * point.uncertainty.get(name, math.inf))
     if point.scatter:
         scatter = scatter_of(point, name, factor)
         text += f"\n± {scatter}" if lines else f" ± {scatter} (windows)"
@@ -74,6 +72,12 @@ def hottest_spots(points: Sequence[StribeckPoint]) -> tuple[StribeckPoint, Flash
     """The point with the greatest flash temperature, and that; None of points without an estimate of it."""
     some = [(point, flash) for point in points if (flash := point.flash) is not None]
     return max(some, key=lambda one: one[1].mean, default=None)
+
+
+def flash_of(point: StribeckPoint) -> str:
+    """The flash temperature of a point, K above the walls, and its range on the next line; "–" without contact."""
+    flash = point.flash
+    return "–" if flash is None else f"{flash.mean:.3g}\n{flash.low:.3g} to {flash.high:.3g}"
 
 
 def flash_words(curve: StribeckCurve) -> str:

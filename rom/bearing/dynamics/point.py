@@ -16,6 +16,7 @@ from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.mixed.quantities import contact_quantities
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.uncertainty import beyond_half_a_turn
 from roughfilm.rom.cavitation.evaluation.grids import grid_uncertainty
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
 from roughfilm.rom.cavitation.motion.coupled import Instant
@@ -192,6 +193,7 @@ def finished(
         else math.inf
         for name, value in numbers.items()
     }
+    uncertainty |= dict.fromkeys(beyond_half_a_turn(uncertainty), math.inf)
     whirls = [point.whirl for point in points if point.whirl is not None]
     if not whirls:
         return numbers, uncertainty

@@ -1,13 +1,11 @@
 """The quantities, uncertainties and fields of a mixed film."""
 
-import math
 from collections.abc import Mapping
 from functools import partial
 
 import numpy as np
 
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.bearing.asperity_contact import FLASH
 from roughfilm.rom.bearing.equilibrium.expected import expected_film
 from roughfilm.rom.bearing.equilibrium.grids import LOAD_TOLERANCE
 from roughfilm.rom.bearing.film import Searched
@@ -34,20 +32,6 @@ _OF_LOAD = (
 
 _OF_FRICTION = tuple(f"{name}{per}" for name in ("friction", "power_loss", "torque") for per in ("", "_per_width"))
 """Quantities whose uncertainty is that of viscous and boundary friction."""
-
-
-def mixed_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
-    """The quantities of :func:`contact_quantities`, and the flash temperature of the asperities.
-
-    ``flash_temperature``, of scenes with ``asperities.solid_heat``, estimates how much hotter the spots in contact are
-    at the largest contact pressure, between ``flash_temperature_low`` and ``flash_temperature_high``
-    (:func:`roughfilm.rom.bearing.flash.rise_of_spots`).
-    """
-    quantities = contact_quantities(scene, solution)
-    flash = flash_temperature(scene, quantities["contact_pressure_max"].value, scene.boundary_friction)
-    if flash is None:
-        return quantities
-    return quantities | {name: Quantity(value=value, unit="K") for name, value in flash.named.items()}
 
 
 def contact_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
@@ -101,10 +85,7 @@ def mixed_uncertainties(scene: Bearing, solution: Solution, quantities: Mapping[
         **dict.fromkeys(("contact_load", "contact_load_per_width", "contact_pressure_max", "contact_area"), of_contact),
         "least_gap": 0.0,
     }
-    return {
-        name: math.inf if name in FLASH else abs(quantity.value) * relative.get(name, of_film)
-        for name, quantity in quantities.items()
-    }
+    return {name: abs(quantity.value) * relative.get(name, of_film) for name, quantity in quantities.items()}
 
 
 def mixed_fields(scene: Bearing, solution: Solution) -> Fields:
@@ -116,20 +97,35 @@ def mixed_fields(scene: Bearing, solution: Solution) -> Fields:
     }
 
 
+def flash_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
+    """The flash temperature of the asperities of scenes with ``asperities.solid_heat``, where asperities touch.
+
+    ``flash_temperature`` estimates how much hotter the spots in contact are than the walls at the largest contact
+    pressure, between ``flash_temperature_low`` and ``flash_temperature_high``
+    (:func:`roughfilm.rom.bearing.flash.rise_of_spots`).
+
+    Raises
+    ------
+    ConvergenceError
+        If the contact does not converge.
+    """
+    flash = flash_temperature(scene, _contact(scene, solution).pressure_max, scene.boundary_friction)
+    return {} if flash is None else {name: Quantity(value=value, unit="K") for name, value in flash.named.items()}
+
+
 def mixed_warnings(scene: Bearing, solution: Solution) -> list[str]:
     """Warnings about a flash temperature outside of the range of its estimate."""
-    assert scene.asperities is not None
     pressure = _contact(scene, solution).pressure_max
     flash = flash_temperature(scene, pressure, scene.boundary_friction)
     return [] if flash is None else flash_warnings(scene, pressure, flash)
 
 
 MIXED_OUTPUTS = Outputs(
-    quantities=mixed_quantities,
+    quantities=contact_quantities,
     factor_uncertainties=mixed_uncertainties,
     fields=mixed_fields,
     warnings=mixed_warnings,
-    estimates=FLASH,
+    of_finest=flash_quantities,
 )
 
 

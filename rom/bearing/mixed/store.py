@@ -1,8 +1,10 @@
 """Files of Stribeck curves: HDF5 with a digest of the input, and CSV."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -42,7 +44,7 @@ NUMBERS = tuple(entry.name for entry in fields(StribeckPoint) if entry.type is f
 """The numbers that every point has."""
 
 OF_SOME = (*TEMPERATURES, *FLASH)
-"""The numbers of points of some scenes alone."""
+"""The numbers of points of some scenes alone; flash temperatures are those of points with contact alone."""
 
 SCATTER = ("scatter", "window_low", "window_high")
 """Groups of the numbers of points over several windows."""
@@ -51,8 +53,9 @@ ROWS = ("rows",)
 
 
 def numbers_of(points: Sequence[StribeckPoint]) -> tuple[str, ...]:
-    """The names of the numbers of points, with the temperatures that all of them have."""
-    some = [name for name in OF_SOME if points and all(getattr(point, name) is not None for point in points)]
+    """The names of the numbers of points, with the temperatures that all, and the estimates that some of them have."""
+    known = {name: [getattr(point, name) is not None for point in points] for name in OF_SOME}
+    some = [name for name, given in known.items() if any(given) and (name in FLASH or all(given))]
     return (*NUMBERS, *some)
 
 
@@ -61,9 +64,9 @@ def save_points(
 ) -> None:
     """Write points in one step, in order of load and speed.
 
-    ``points/`` has a column for each number, ``uncertainty/`` a column for each estimated uncertainty, NaN where there
-    is none, and ``lift_off/`` a row for each load. Points of several windows have ``scatter/``, ``window_low/`` and
-    ``window_high/`` too.
+    ``points/`` has a column for each number, NaN for a flash temperature without contact, ``uncertainty/`` a column for
+    each estimated uncertainty, NaN where there is none, and ``lift_off/`` a row for each load. Points of several
+    windows have ``scatter/``, ``window_low/`` and ``window_high/`` too.
 
     Raises
     ------
@@ -75,7 +78,8 @@ def save_points(
     def fill(file: h5py.File) -> None:
         write_inputs(file, inputs, SCHEMA)
         for name in numbers_of(points):
-            write_column(file, f"points/{name}", [getattr(point, name) for point in ordered], UNITS.get(name, "1"))
+            column = [_number(point, name) for point in ordered]
+            write_column(file, f"points/{name}", column, UNITS.get(name, "1"))
         for name in sorted({name for point in ordered for name in point.uncertainty}):
             column = [point.uncertainty.get(name, np.nan) for point in ordered]
             write_column(file, f"uncertainty/{name}", column, UNITS.get(name, "1"))
@@ -107,14 +111,14 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
         if content is None:
             return ()
         numbers = (*NUMBERS, *(name for name in OF_SOME if name in content.names("points")))
-        columns = content.take({f"points/{name}": Numbers(shape=ROWS) for name in numbers})
+        columns = content.take({f"points/{name}": Numbers(shape=ROWS, missing=name in FLASH) for name in numbers})
         known = [f"uncertainty/{name}" for name in content.names("uncertainty")]
         uncertainties = content.take(
             {name: Numbers(shape=(len(columns["points/speed"]),), missing=True) for name in known}
         )
     return tuple(
         StribeckPoint(
-            **{name: columns[f"points/{name}"][row].item() for name in numbers},
+            **_given({name: columns[f"points/{name}"][row].item() for name in numbers}),
             uncertainty={
                 name.removeprefix("uncertainty/"): column[row].item()
                 for name, column in uncertainties.items()
@@ -135,13 +139,29 @@ def write_csv(path: Path, curves: Sequence[StribeckCurve]) -> None:
     heads += [f"{name}_{group} ({UNITS.get(name, '1')})" for name in scattered for group in SCATTER]
     lines = [", ".join(heads)]
     for point in (point for curve in curves for point in curve.points):
-        numbers = [repr(float(getattr(point, name))) for name in names]
+        numbers = [_written(_number(point, name)) for name in names]
         numbers += [repr(float(point.uncertainty[name])) if name in point.uncertainty else "" for name in uncertain]
         own = [_of_windows(point, group, name) for name in scattered for group in SCATTER]
-        numbers += ["" if np.isnan(number) else repr(number) for number in own]
+        numbers += [_written(number) for number in own]
         lines.append(", ".join(numbers))
     with replacing(path, table_beginning(heads[0])) as scratch:
         scratch.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def _given(numbers: Mapping[str, float]) -> dict[str, Any]:
+    """The numbers that a point has, without missing estimates."""
+    return {name: number for name, number in numbers.items() if not (name in FLASH and math.isnan(number))}
+
+
+def _number(point: StribeckPoint, name: str) -> float:
+    """A number of a point; NaN where the point has none."""
+    number = getattr(point, name)
+    return math.nan if number is None else float(number)
+
+
+def _written(number: float) -> str:
+    """A number in a table; "" if it is missing."""
+    return "" if math.isnan(number) else repr(number)
 
 
 def _scattered(points: Sequence[StribeckPoint]) -> list[str]:

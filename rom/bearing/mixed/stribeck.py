@@ -93,7 +93,8 @@ class StribeckPoint:
     temperature : effective temperature of the film by its heat balance, °C; None where the scene has no temperature.
     outlet_temperature : temperature of the lubricant that leaves, °C; None where the scene has no temperature.
     flash_temperature, flash_temperature_low, flash_temperature_high : estimate of how much hotter the spots in contact
-        are than the walls at the largest contact pressure, and its range, K; None without ``asperities.solid_heat``.
+        are than the walls at the largest contact pressure, and its range, K; None without ``asperities.solid_heat`` and
+        where nothing touches.
     balance : relative error of the load.
     residual : residual of the film: the largest net flow into a node over the largest flow through a face.
     cpu_s : CPU time, s.

@@ -180,7 +180,8 @@ def solve_heat_balance(solver: Model[Bearing], scene: Bearing, request: CheckedR
 
     def film(temperature: float, cells: int, sensitivity: Sensitivity = INSENSITIVE) -> Result:
         model = isothermal_model(scene)
-        heated = Heated(base=model.outputs, liquid=liquid, temperature=temperature, sensitivity=sensitivity)
+        outputs = model.outputs if cells == request.resolution else model.outputs.searched
+        heated = Heated(base=outputs, liquid=liquid, temperature=temperature, sensitivity=sensitivity)
         hot = scene.at_temperature(temperature)
         return solve(
             solver,

@@ -5,18 +5,17 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from roughfilm.contact.foundation.deferred import deferred
-from roughfilm.rom.bearing.asperity_contact import FLASH
 from roughfilm.rom.bearing.film import averaged_film, averaged_films
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Outputs
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.problem import Problem
 
 MIXED_OUTPUTS = Outputs(
-    quantities=deferred("rom.bearing.mixed.quantities", "mixed_quantities"),
+    quantities=deferred("rom.bearing.mixed.quantities", "contact_quantities"),
     factor_uncertainties=deferred("rom.bearing.mixed.quantities", "mixed_uncertainties"),
     fields=deferred("rom.bearing.mixed.quantities", "mixed_fields"),
     warnings=deferred("rom.bearing.mixed.quantities", "mixed_warnings"),
-    estimates=FLASH,
+    of_finest=deferred("rom.bearing.mixed.quantities", "flash_quantities"),
 )
 
 

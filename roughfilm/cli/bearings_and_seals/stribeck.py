@@ -173,8 +173,9 @@ def command(
         if None not in hottest:
             heads.append("hottest film, °C")
         spots = [flash_words(curve) for curve in curves]
-        if all(spots):
+        if any(spots):
             heads.append("spots hotter by, K")
+            spots = [flash or "–" for flash in spots]
         lowest = [
             (curve, _least_friction(curve), hot, flash)
             for curve, hot, flash in zip(curves, hottest, spots, strict=True)
@@ -302,7 +303,8 @@ def curve_entries(
 
 
 def _point_entries(point: StribeckPoint, names: Sequence[str], *, scattered: bool) -> dict[str, Any]:
-    entries: dict[str, Any] = {name: finite(getattr(point, name)) for name in names}
+    numbers = {name: getattr(point, name) for name in names}
+    entries: dict[str, Any] = {name: None if one is None else finite(one) for name, one in numbers.items()}
     entries["uncertainty"] = {name: finite(value) for name, value in point.uncertainty.items()}
     if scattered:
         entries["scatter"] = {name: finite(value) for name, value in point.scatter.items()}

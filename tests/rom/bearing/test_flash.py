@@ -8,7 +8,9 @@ import pytest
 import roughfilm as rf
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.mechanics.press import Press
+from roughfilm.rom.bearing import flash as flash_module
 from roughfilm.rom.bearing.flash import Spots, flash_temperature, flash_warnings, rise_of_spots, spots_of
+from roughfilm.rom.bearing.kind import KIND
 from roughfilm.rom.bearing.roughness import RoughSurface
 from roughfilm.rom.parts.solids import HeatConductor
 from roughfilm.rom.temperature.closed_forms.moving_sources import moving_circle, resting_circle
@@ -160,11 +162,20 @@ def test_the_model_reports_an_estimate_with_its_range(scene):
     assert high.value < alone.greatest
 
 
-def test_without_contact_nothing_flashes_and_without_solids_nothing_is_said(scene):
-    assert flash_temperature(scene, 0.0, 0.1).high == 0
-    assert flash_warnings(scene, 0.0, flash_temperature(scene, 0.0, 0.1)) == []
+def test_without_contact_or_solids_there_is_no_flash_temperature(scene):
+    assert flash_temperature(scene, 0.0, 0.1) is None
     plain = rf.replace(scene, "asperities.solid_heat", None)
     assert flash_temperature(plain, 1e8, 0.1) is None
+
+
+def test_a_film_that_parts_its_walls_has_no_flash_temperature_and_says_why(scene):
+    result = rf.solve(rf.replace(scene, "geometry.film", "6 um"), model="mixed", resolution=8)
+    assert result["contact_pressure_max"].value == 0
+    assert not any("flash" in name for name in result.quantities)
+    why = "no asperities touch, so that there is no flash temperature"
+    assert why in KIND.remarks(result.provenance["scene"], result.quantities)
+    touching = rf.solve(scene, model="mixed", resolution=8)
+    assert why not in KIND.remarks(touching.provenance["scene"], touching.quantities)
 
 
 def test_the_estimate_says_where_its_range_ends(scene):
@@ -185,14 +196,20 @@ def test_solids_of_heat_are_checked(scene, tips):
         tips.scene(geometry, asperities={"friction": 0.1, "solid_heat": STEEL})
 
 
-def test_a_heated_film_flashes_above_its_own_temperature(scene):
-    """The flash temperature of a heat balance has the friction at the temperature of the film."""
+def test_a_heated_film_flashes_above_its_own_temperature(scene, monkeypatch):
+    """The flash temperature of a heat balance has the friction at the temperature of the film.
+
+    It is that of films on the finest grid alone, not of each temperature at which the balance is sought.
+    """
+    solved, spots_at = [], flash_module._spots_at
+    monkeypatch.setattr(flash_module, "_spots_at", lambda *args: solved.append(args[1]) or spots_at(*args))
     oil = {"temperature": "40 degC", "density": "870 kg/m^3", "heat_capacity": "2000 J/(kg*K)"}
     thinning = {"law": "exponential", "temperature_coefficient": "0.001 1/K"}
     lubricant = {"viscosity": "0.01 Pa*s", **oil, "thermoviscosity": thinning}
     warm = rf.replace(rf.replace(scene, "lubricant", lubricant), "motion.speed", "0.5 m/s")
     hot = rf.replace(warm, "asperities.friction", {"table": [["0 degC", 0.02], ["500 degC", 0.0]]})
     result = rf.solve(hot, model="heat_balance", resolution=8)
+    assert len(set(solved)) <= result.numerics.details["heated_films"]
     coefficient = 0.02 * (1 - result["effective_temperature"].value / 500)
     expected = flash_temperature(warm, result["contact_pressure_max"].value, coefficient).mean
     assert result["flash_temperature"].value == pytest.approx(expected, rel=1e-3)

@@ -120,6 +120,13 @@ def test_temperatures_outside_of_a_range_have_a_warning():
     assert lubricant(viscosity="30 mPa*s").temperature_warnings(0.0, 1e4) == []
 
 
+@pytest.mark.parametrize(("lowest", "highest"), [(300.0, 753.15), (170.0, 300.0)])
+def test_temperatures_far_outside_of_a_range_are_no_answer(lowest, highest):
+    (warning,) = lubricant(**ANCHORED).temperature_warnings(lowest, highest)
+    assert "valid from 10 °C to 70 °C: this is no answer, as it is more than 100 K beyond; change the scene" in warning
+    assert "no answer" not in lubricant(**ANCHORED).temperature_warnings(183.2, 443.1)[0]
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [

@@ -9,7 +9,7 @@ from places import SCENES
 
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.quantities import film_ends
-from roughfilm.rom.bearing.uncertainty import _positions
+from roughfilm.rom.bearing.uncertainty import _positions, beyond_half_a_turn
 from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.evaluation.grids import (
     COARSE_SAFETY_FACTOR,
@@ -125,3 +125,19 @@ def test_grids_that_miss_the_film_do_not_widen_the_uncertainty_of_positions() ->
     assert _positions({64: 0.70, 40: 0.71, 20: 0.74, 10: 0.2}, ring=False) == {64: 0.70, 40: 0.71, 20: 0.74}
     assert _positions({16: 0.70, 10: 0.2}, ring=False) == {16: 0.70, 10: 0.2}
     assert _positions({64: 0.02, 40: 0.99}, ring=True) == pytest.approx({64: 0.02, 40: -0.01})
+
+
+def test_an_angle_that_is_uncertain_by_half_a_turn_is_unknown() -> None:
+    assert beyond_half_a_turn({"film_min_angle": 179.0, "attitude_angle": 3.0, "film_min_x": 0.2}) == []
+    assert beyond_half_a_turn({"attitude_angle": 180.0, "film_min_x": 0.2}) == ["attitude_angle"]
+    assert beyond_half_a_turn({"film_min_angle": 600.0, "film_min_x": 0.5}) == ["film_min_angle", "film_min_x"]
+
+
+def test_the_least_film_of_tilting_pads_on_few_cells_may_be_anywhere() -> None:
+    pads = {"shape": "lobes", "lobes": 4, "arc": "80 deg", "pivot": 0.5, "radius": "50 mm", "width": "50 mm"}
+    result = solve(12, pads | {"clearance": "80 um"}, load={"force": "200 N"}, motion={"speed": "10 m/s"})
+    for name in ("attitude_angle", "film_min_angle", "film_min_x"):
+        assert result[name].uncertainty is None
+    assert result["film_min"].uncertainty is not None
+    why = "attitude_angle, film_min_angle, film_min_x: unknown uncertainty, as it is more than half a turn; take more"
+    assert [warning for warning in result.warnings if warning.startswith(why)]

@@ -54,6 +54,7 @@ class HeatedOutputs:
             iteration_uncertainties=iteration_uncertainties,
             warnings=self.warnings,
             details=details,
+            of_finest=self.of_finest,
             estimates=(*self.base.estimates, HIGHEST),
         )
 
@@ -109,6 +110,10 @@ class HeatedOutputs:
             "viscosity": (np.asarray(own / problem.fluidity(solution.state.pressure)[0]), "Pa*s"),
         }
 
+    def of_finest(self, scene: Bearing, solution: Solution) -> Mapping[str, Quantity]:
+        """The estimates of the isothermal model, with the friction of asperities at the temperature of the film."""
+        return self.base.of_finest(with_friction(scene, self.heated(solution).friction), solution)
+
     def warnings(self, scene: Bearing, solution: Solution) -> list[str]:
         """Warnings about temperatures outside of the range of the law of the viscosity, and about their iteration."""
         changes = solution.changes if isinstance(solution, HeatedSolution) else (0.0,)
@@ -119,6 +124,7 @@ class HeatedOutputs:
         temperature = self.heated(solution).temperature
         beyond = scene.lubricant.temperature_warnings(float(temperature.min()), float(temperature.max()))
         unsettled = apart if changes[-1] > FIELD_TOLERANCE else []
+        scene = with_friction(scene, self.heated(solution).friction)
         circulates = isinstance(solution, HeatedSolution) and keeps_its_heat(solution)
         return [*self.base.warnings(scene, solution), *beyond, *unsettled, *([CIRCULATES] if circulates else [])]
 

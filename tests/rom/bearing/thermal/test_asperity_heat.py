@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from roughfilm.rom.bearing.mixed.contact_load import asperity_load
-from roughfilm.rom.bearing.mixed.quantities import film_of_scene, mixed_quantities
+from roughfilm.rom.bearing.mixed.quantities import contact_quantities, film_of_scene
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.thermal.asperity_heat import asperity_heat
@@ -26,7 +26,7 @@ def test_the_heat_is_the_power_of_boundary_friction(tips, geometry, speed):
     film = solve(film_of_scene(scene), (16, 16))
     force = asperity_load(film.problem.shape, film.grid, asperities_of(scene)).force
     both, alone = (
-        made["power_loss"].value for made in (mixed_quantities(scene, film), bearing_quantities(scene, film))
+        made["power_loss"].value for made in (contact_quantities(scene, film), bearing_quantities(scene, film))
     )
     heat = asperity_heat(film, force, tips.friction)
     assert heat.sum() == pytest.approx(both - alone, rel=1e-9)

@@ -110,7 +110,7 @@ def test_asperities_heat_the_film_too(rough):
 def test_spots_in_contact_are_as_hot_as_by_the_model_and_cold_where_nothing_slides_or_touches(rough):
     _, hot, cold = rough
     rest, mixed, parted = hot.points
-    assert (rest.flash_temperature, parted.flash_temperature_high) == (0.0, 0.0)
+    assert (rest.flash_temperature, parted.flash_temperature_high) == (0.0, None)
     assert 0 < mixed.flash_temperature_low <= mixed.flash_temperature < mixed.flash_temperature_high
     film = find("bearing", "mixed").solve(
         scene_of(PAD, speed="0.2 m/s", **ROUGH | {"load": {"pressure": "3 MPa"}}).isothermal(),
@@ -128,5 +128,7 @@ def test_the_file_keeps_temperatures(rough, tmp_path: Path):
     write_csv(tmp_path / "hot.csv", [hot])
     heads = (tmp_path / "hot.csv").read_text().splitlines()[0]
     assert "temperature (degC), outlet_temperature (degC), flash_temperature (K)" in heads
+    parted = (tmp_path / "hot.csv").read_text().splitlines()[-1].split(", ")
+    assert parted[heads.split(", ").index("flash_temperature (K)")] == ""
     assert "temperature" not in numbers_of(cold.points)
     assert curve_inputs(scene.isothermal(), None, CELLS).digest != inputs.digest
