@@ -49,11 +49,13 @@ def keeps_its_heat(solution: HeatedSolution) -> bool:
     """Whether lubricant turns around a bore more than ``MAX_TURNS`` times before it leaves, and no wall takes its heat.
 
     Without heat conduction in the plane no heat leaves a closed streamline, so that its temperature grows with the
-    refinement of the grid, which alone mixes the lubricant of neighbouring streamlines.
+    refinement of the grid, which alone mixes the lubricant of neighbouring streamlines. A turning shaft takes heat from
+    warm streamlines and gives it to others, even if it takes none in sum.
     """
     if not solution.network.periodic[0] or solution.problem.shape.idle:
         return False
-    if solution.heated.to_fixed_wall or solution.heated.to_sliding_wall:
+    heated = solution.heated
+    if heated.shaft is not None or heated.to_fixed_wall or heated.to_sliding_wall:
         return False
     flows = film_flows(solution)
     out = [max(-float(flows.entering[:, side].sum()), 0.0) for side in (0, -1)]
