@@ -115,13 +115,13 @@ class AdviceTask:
         """Whether no other model for the scene leaves out less."""
         return model.name == best_for(self.scene, self.models).name
 
-    def grids_alone(self, model: Model) -> bool:
-        """Whether a model has a law of its resolution alone, and none of what it leaves out."""
+    def has_grid_law_alone(self, model: Model) -> bool:
+        """Whether a model has a law of the error by its resolution, but none of what it leaves out."""
         own = self.kind.laws_of_grids(model.name) != self.kind.name_of_laws
         return own and self.grid_law(model) is not None
 
-    def counts_omission(self, model: Model) -> bool:
-        """Whether an omission states what a model leaves out, or it leaves out nothing that others include."""
+    def states_left_out(self, model: Model) -> bool:
+        """Whether an omission states the size of what a model leaves out, or other models leave out no less."""
         own = self.omitted.get(model.name)
         return (own is not None and bool(own.source)) or self.is_best(model)
 
@@ -221,14 +221,15 @@ def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | No
     """The estimate by the laws: the promise of a model, or the sum of the steps above it, and the resolution.
 
     The parts are independent bounds e_i, which add up to √(Σ e_i²). The result is None if a part has no law, unless an
-    effect that the laws do not count stands for the error of the most complete model. For a
-    model without a promise, the uncertainty that it states for a run replaces the law over resolutions.
+    effect that the laws do not count stands for the error of the most complete model, or if nothing states what a model
+    with a law of its resolution alone leaves out. For a model without a promise, the uncertainty that it states for a
+    run replaces the law over resolutions.
     """
+    if task.has_grid_law_alone(model) and not task.states_left_out(model):
+        return None
     left = left_out(task, task.chain(model))
     by_law = stated is None or task.promised(model)
     grid = task.grid(model, resolution) if by_law else stated
-    if by_law and task.grids_alone(model) and not task.counts_omission(model):
-        grid = None
     if left is None or grid is None:
         return None if left is None else _by_omission(task, model)
     parts, reasons, sure = left
@@ -340,7 +341,7 @@ def runs_of_check(task: AdviceTask, model: Model, resolution: int) -> tuple[tupl
     """
     above = task.next(model)
     if above is None:
-        checks = task.counts_omission(model) if task.grids_alone(model) else task.is_best(model)
+        checks = task.states_left_out(model) if task.has_grid_law_alone(model) else task.is_best(model)
         return ((model, resolution),) if checks and not model.outside else ()
     before = a_priori(task, model, resolution)
     finer = task.as_fine(above, 0.0 if before is None else CHECK_FRACTION * before.error)
@@ -364,7 +365,7 @@ def affordable(task: AdviceTask, pairs: Sequence[tuple[Model, int]]) -> set[tupl
     checked: set[tuple[str, int]] = set()
     for model, resolution in pairs:
         runs = {(one.name, n): task.cost(one, n) for one, n in runs_of_check(task, model, resolution)}
-        if runs.keys() == {(model.name, resolution)} and task.grids_alone(model):
+        if runs.keys() == {(model.name, resolution)} and task.has_grid_law_alone(model):
             paid |= runs.keys()
         cost = sum(runs[key] for key in runs.keys() - paid)
         if cost <= left:
