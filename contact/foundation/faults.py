@@ -143,9 +143,10 @@ def _fault(given: Mapping[str, Any], unknown: Callable[[Location], tuple[str, st
         case "tuple_type":
             text = f"got {got}; write a list in brackets"
         case "too_short":
-            text = f"got {got}; write {given['ctx']['min_length']} entries or more"
+            least = given["ctx"]["min_length"]
+            text = f"got {got}; write {least} {'entry' if least == 1 else 'entries'} or more"
         case "too_long":
-            text = f"got {got}; write at most {given['ctx']['max_length']} entries"
+            text = f"got {got}; write no more entries than {given['ctx']['max_length']}"
         case "model_type" | "model_attributes_type" | "dict_type":
             text = f"got {got}; write a table, with a line for each of its keys"
         case "value_error":

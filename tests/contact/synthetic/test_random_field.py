@@ -108,7 +108,7 @@ def test_heights_between_and_beyond_scores_grow():
         ("population", {"modes": [{**MODE, "step": [0.0]}]}, "did you mean 'steps'"),
         ("population", {"rms_height": "-1 um"}, "above zero"),
         ("population", {"octaves": [float("nan")] * 3}, r"octaves\.0: got nan; a dimensionless number must be"),
-        ("population", {"octaves": []}, "write 1 values or more"),
+        ("population", {"octaves": []}, "write 1 entry or more"),
         ("", {"points": [12, 12]}, "below two pixels"),
         ("", {"seed": -1}, "write a whole number from 0"),
     ],

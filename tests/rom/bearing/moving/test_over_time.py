@@ -72,7 +72,7 @@ def test_a_file_gives_the_columns_in_si_units_and_its_digest_is_kept(tmp_path):
 TIMES = ["0 s", "1 s"]
 FAULTS = {
     "unsorted": ({"time": ["0 s", "2 s", "1 s"], "load": ["1 N"] * 3}, {}, "row 3 after"),
-    "one row": ({"time": ["0 s"], "load": ["1 N"]}, {}, "2 values or more"),
+    "one row": ({"time": ["0 s"], "load": ["1 N"]}, {}, "2 entries or more"),
     "other length": ({"time": TIMES, "load": ["1 N"]}, {}, "got 1 rows, but time has 2"),
     "no column": ({"time": TIMES}, {}, "no column beside it"),
     "unknown column": ({"time": TIMES, "lod": ["1 N"] * 2}, {}, "unknown key"),
