@@ -61,7 +61,8 @@ def test_on_a_terminal_the_steps_of_pip_share_one_line(tmp_path):
         "looking for first==1.0, package 1 of 2",
         "fetching first-1.0 (112.5 MB), package 1 of 2",
     }
-    assert steps.endswith("\x1b[K") and after.endswith("\x1b[K")  # nothing of the line is left
+    assert steps.endswith("\x1b[K")  # nothing of the line is left
+    assert after.endswith("\x1b[K")
 
 
 FAULTS = {
