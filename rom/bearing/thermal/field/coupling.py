@@ -156,6 +156,7 @@ def coupled(
     near: HeatedT | None = None,
     tolerance: float = FIELD_TOLERANCE,
     error: float = 0.0,
+    carried: float = 0.0,
 ) -> Coupled[FilmT, HeatedT]:
     """Solve for the film whose viscosities are those of its own temperatures.
 
@@ -166,8 +167,8 @@ def coupled(
     pads and 0.05 to 0.6 in journal bearings, up to an eccentricity of 0.95. The next x is that of Anderson's method,
     the combination of ``REMEMBERED`` earlier films with the least difference g(x) - x, or g(x) itself where the
     combination is farther from it than x is. The temperature at the inlet is one more unknown of it, whose g is the
-    mixture of new and returning lubricant. Under a load the film of each x carries it to a part of the expected
-    difference g(x) - x, and the last film to the tolerance of the search.
+    mixture of new and returning lubricant. Under a load the film of each x carries it to the part ``carried`` of the
+    expected difference g(x) - x, and the last film to the tolerance of the search.
 
     Parameters
     ----------
@@ -177,6 +178,8 @@ def coupled(
     near : temperatures of a film near this one.
     tolerance : root mean square of g(x) - x over the film at which the iteration stops.
     error : relative error of the load of the first film; 0 if it meets the tolerance of its search.
+    carried : relative error of the load of a film that changes further, over the expected difference of its ln η; 0 if
+        all films meet the tolerance.
 
     Raises
     ------
@@ -207,7 +210,7 @@ def coupled(
         if small:
             heated = heating(film.solution, heated)
             continue
-        error = _error_of_load(changes, tolerance)
+        error = carried * _expected(changes, tolerance)
         point, image = _at_inlet(used, following, heated.inlet)
         step = point, _following(memory, point, image, areas)
         film, heated = _stepped(film, heated, again, heating, step, error, hottest)
@@ -219,11 +222,11 @@ def coupled(
     )
 
 
-def _error_of_load(changes: Sequence[float], tolerance: float) -> float:
-    """The relative error of the load of the next film; 0 if it is expected to be the last one."""
+def _expected(changes: Sequence[float], tolerance: float) -> float:
+    """The expected difference of the next film; 0 if it is expected to be the last one."""
     fall = min(changes[-1] / changes[-2], 1.0) if len(changes) > 1 and changes[-2] > 0 else FIRST_FALL
     expected = fall * changes[-1]
-    return CARRIED * expected if expected > tolerance else 0.0
+    return expected if expected > tolerance else 0.0
 
 
 def _at_inlet(used: Array, following: Array, inlet: Mixture | None) -> tuple[Point, Point]:

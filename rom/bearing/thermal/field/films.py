@@ -15,6 +15,7 @@ from roughfilm.rom.bearing.equilibrium.grids import Search
 from roughfilm.rom.bearing.free.solve import PlacedFilm, WithField
 from roughfilm.rom.bearing.mixed.film import RESIDUAL_FRACTION, MixedFilm, MixedState, mixed_problem
 from roughfilm.rom.bearing.thermal.field.coupling import (
+    CARRIED,
     FIELD_TOLERANCE,
     FIRST_ERROR,
     Again,
@@ -178,7 +179,7 @@ class HeatedBearing:
 
             error = 0.0 if self.last.heated is None else FIRST_ERROR
             first = carrying(None, self.last.viscosities, error)
-            film, solution = self._coupled(first, again, error)
+            film, solution = self._coupled(first, again, error, CARRIED)
             loaded: AnyState = replace(film, solution=solution)
             return loaded
 
@@ -201,9 +202,12 @@ class HeatedBearing:
 
         return heated
 
-    def _coupled(self, first: FilmT, again: Again[FilmT], error: float = 0.0) -> tuple[FilmT, HeatedSolution]:
+    def _coupled(
+        self, first: FilmT, again: Again[FilmT], error: float = 0.0, carried: float = 0.0
+    ) -> tuple[FilmT, HeatedSolution]:
         """The film that agrees with its temperatures, from a first one, and its solution with the temperatures."""
-        found = coupled(first, again, self.heating, near=self.last.heated, tolerance=self.tolerance, error=error)
+        near, tolerance = self.last.heated, self.tolerance
+        found = coupled(first, again, self.heating, near=near, tolerance=tolerance, error=error, carried=carried)
         solution = heated_solution(found.film.solution, found)
         self.last.keep(solution)
         return found.film, solution

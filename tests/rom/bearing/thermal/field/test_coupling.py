@@ -157,7 +157,7 @@ def test_the_last_film_carries_its_load_to_the_tolerance_of_the_search():
         varied = nodal_field(film.solution, values)
         return Loaded(with_viscosities(film.solution, varied, tolerance=1e-11, ruptures=True), error)
 
-    found = coupled(Loaded(solve(wedge(), (24, 24)), 0.01), again, by_pressure, error=0.01)
+    found = coupled(Loaded(solve(wedge(), (24, 24)), 0.01), again, by_pressure, error=0.01, carried=0.2)
     assert found.film.error == asked[-1] == 0
     assert 0 < asked[0] < found.changes[0]
     np.testing.assert_array_less(found.changes[-1], 2e-5)
