@@ -30,8 +30,8 @@ class AndersonAcceleration:
     def following(self, rest: Array, image: Array) -> Array:
         """The combination of the images, with factors of sum 1, whose combination of the rests is least.
 
-        For an affine g it lowers the error as GMRES does for (1 - g') x = g(0): whatever part of it few slow modes
-        make is gone after as many steps, while g is not changed.
+        For an affine g it lowers the error as GMRES does for (1 - g') x = g(0): the part of the error that lies in m
+        slow modes vanishes after about m steps.
 
         Source: Walker and Ni 2011, doi:10.1137/10078356X.
         """
