@@ -111,6 +111,7 @@ class Advice:
     spent_cpu_s : CPU time of all runs, s.
     omitted : by model, the effect that it leaves out and that the laws do not count, whose part is subtracted from the
         tolerance.
+    outside : by model, the ways in which the scene, or a solution of it, is outside the range of the model.
     in_time : what a motion in time means; None for a steady scene.
     """
 
@@ -126,6 +127,7 @@ class Advice:
     result: Result | None
     spent_cpu_s: float
     omitted: Mapping[str, Omission] = field(default_factory=dict)
+    outside: Mapping[str, Sequence[str]] = field(default_factory=dict)
     in_time: InTime | None = None
 
     def __repr__(self) -> str:
@@ -154,6 +156,8 @@ def shortfall(advice: Advice) -> str:
     """The message that no model is accurate enough, with the remedy or the most accurate model if they are known."""
     message = f"no model here is known to give the {advice.title} within {percent(advice.within)}"
     taken = advice.nearest or advice.fallback
+    if taken is not None and advice.outside.get(taken.model):
+        return f"{message}: {'; '.join(advice.outside[taken.model])}"
     omitted = None if taken is None else advice.omitted.get(taken.model)
     if omitted is not None and omitted.part > advice.within / 2:
         return f"{message}: {omitted.reason}"
@@ -184,8 +188,9 @@ def advise(
     that model is cheap and the checks of all cheaper pairs cost little (:func:`affordable`). Neither depends on the
     tolerance, so that a looser tolerance never chooses a more expensive pair. A pair is not run if the laws expect more
     than ``MAX_ERROR_RATIO`` tolerances. An effect that a model leaves out and that the laws do not count is subtracted
-    from its tolerance. An error is a bound that 95 of 100 scenes do not exceed. A scene whose load changes in time is
-    judged at its largest load.
+    from its tolerance. A model outside whose range the scene or a solution is (``Kind.outside``, ``Result.outside``)
+    has no known error and is not chosen. An error is a bound that 95 of 100 scenes do not exceed. A scene whose load
+    changes in time is judged at its largest load.
 
     Parameters
     ----------
@@ -210,6 +215,9 @@ def advise(
     kind = kind_of_scene(scene)
     known: dict[tuple[str, int], Result] = {}
     failed: dict[tuple[str, int], Exception] = {}
+    fits = {model.name: model.applies(scene) for model in models}
+    applying = [model for model in models if fits[model.name].applies]
+    outside = {model.name: tuple(kind.outside(scene, model, None)) for model in applying}
 
     def solved(model: Model, resolution: int) -> Result:
         key = (model.name, resolution)
@@ -226,20 +234,21 @@ def advise(
             except (InputError, ConvergenceError, UnavailableError) as error:
                 failed[key] = error
                 raise
+            outside[model.name] = tuple(dict.fromkeys((*outside[model.name], *known[key].outside)))
         return known[key]
 
-    fits = {model.name: model.applies(scene) for model in models}
     task = AdviceTask(
         scene=scene,
         kind=kind,
-        models=[model for model in models if fits[model.name].applies],
+        models=applying,
         quantity=quantity,
         title=kind.titles[quantity],
         table=lawful(laws or table(), kind.names_of_laws, holds=kind.lawful),
         numbers=kind.numbers(scene),
         run=solved,
         failed=failed,
-        omitted=_omitted(scene, [model for model in models if fits[model.name].applies], quantity),
+        omitted=_omitted(scene, applying, quantity),
+        outside=outside,
         within=within,
     )
     if not task.models:
@@ -271,6 +280,7 @@ def advise(
         result=known.get((taken.model, taken.resolution or 0)) if taken else None,
         spent_cpu_s=sum(result.numerics.cpu_s for result in known.values()),
         omitted=task.omitted,
+        outside={name: reasons for name, reasons in outside.items() if reasons},
         in_time=moving,
     )
 
@@ -284,7 +294,7 @@ def _omitted(scene: Scene, models: Sequence[Model], quantity: str) -> dict[str, 
 
 def _judged(task: AdviceTask) -> list[ModelVerdict]:
     """The verdict on every model that applies, cheapest first: at the accepted resolution, or at the most accurate."""
-    pairs = [(model, resolution) for model in task.models for resolution in task.resolutions(model)]
+    pairs = [(model, resolution) for model in task.models for resolution in _considered(task, model)]
     pairs.sort(key=lambda pair: (task.cost(*pair), -len(pair[0].keeps)))
     checked = affordable(task, pairs)
     verdicts: dict[str, ModelVerdict] = {}
@@ -309,6 +319,11 @@ def _judged(task: AdviceTask) -> list[ModelVerdict]:
         ):
             hopeless.add(model.name)
     return sorted(verdicts.values(), key=lambda one: one.cpu_s)
+
+
+def _considered(task: AdviceTask, model: Model) -> tuple[int, ...]:
+    """The resolutions at which a model is considered; the default alone outside of its range."""
+    return (model.resolution_of(task.scene),) if task.outside[model.name] else task.resolutions(model)
 
 
 def _most_complete(task: AdviceTask, judged: Sequence[ModelVerdict]) -> ModelVerdict | None:
@@ -365,6 +380,8 @@ def _as_verdict(
 def _after(task: AdviceTask, model: Model, resolution: int) -> ModelVerdict:
     """The verdict on a model that is not run, since a cheaper one is chosen or the tolerance is used up."""
     before, within = a_priori(task, model, resolution), task.left(model)
+    if task.outside[model.name]:
+        return _outside(task, model, resolution)
     if within <= 0:
         reason = "an effect that it leaves out and that the laws do not count exceeds the tolerance"
         return _as_verdict(task, model, resolution, Verdict.NOT_ENOUGH, reason, before)
@@ -374,6 +391,12 @@ def _after(task: AdviceTask, model: Model, resolution: int) -> ModelVerdict:
         return _as_verdict(task, model, resolution, Verdict.NOT_NEEDED, "no law gives its error", None)
     reason = f"{task.cost(model, resolution):.2g} CPU s"
     return _as_verdict(task, model, resolution, Verdict.NOT_NEEDED, reason, before)
+
+
+def _outside(task: AdviceTask, model: Model, resolution: int) -> ModelVerdict:
+    """The verdict on a model outside of its range."""
+    reason = f"outside its range: {'; '.join(task.outside[model.name])}"
+    return _as_verdict(task, model, resolution, Verdict.NOT_ENOUGH, reason, None)
 
 
 def _accepts(estimate: Estimate | None, within: float) -> bool:
@@ -386,6 +409,8 @@ def _verdict(task: AdviceTask, model: Model, resolution: int, *, checked: bool) 
     here, before = model.available(), a_priori(task, model, resolution)
     if not here.available:
         return _as_verdict(task, model, resolution, Verdict.NOT_HERE, here.detail, before)
+    if task.outside[model.name]:
+        return _outside(task, model, resolution)
     if before is not None and before.sure and before.error > MAX_ERROR_RATIO * within:
         return _as_verdict(task, model, resolution, Verdict.NOT_ENOUGH, _main(before), before)
     after = a_posteriori(task, model, resolution) if checked else None
@@ -395,6 +420,8 @@ def _verdict(task: AdviceTask, model: Model, resolution: int, *, checked: bool) 
     if estimate is not None and _accepts(estimate, within):
         own = with_own_uncertainty(task, model, resolution, estimate)
         estimate, after = own, after if own is estimate else own
+    if task.outside[model.name]:
+        return _outside(task, model, resolution)
     verdict = Verdict.CHOSEN if _accepts(estimate, within) else Verdict.NOT_ENOUGH
     return _as_verdict(task, model, resolution, verdict, _main(estimate), before, after)
 

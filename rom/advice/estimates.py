@@ -72,6 +72,7 @@ class AdviceTask:
     run : run(model, resolution), which returns a result.
     failed : error of every run that failed, by name of the model and resolution.
     omitted : by model, the effect that it leaves out and that the laws do not count.
+    outside : by model, the ways in which the scene, or a solution of it, is outside the range of the model.
     within : tolerated error over the size of the quantity.
     """
 
@@ -85,6 +86,7 @@ class AdviceTask:
     run: Callable[[Model, int], Result]
     failed: Mapping[tuple[str, int], Exception] = field(default_factory=dict)
     omitted: Mapping[str, Omission] = field(default_factory=dict)
+    outside: Mapping[str, Sequence[str]] = field(default_factory=dict)
     within: float = 0.0
 
     def part_omitted(self, model: Model) -> float:
@@ -222,10 +224,10 @@ def a_priori(task: AdviceTask, model: Model, resolution: int, stated: float | No
 
     The parts are independent bounds e_i, which add up to √(Σ e_i²). The result is None if a part has no law, unless an
     effect that the laws do not count stands for the error of the most complete model, or if nothing states what a model
-    with a law of its resolution alone leaves out. For a model without a promise, the uncertainty that it states for a
-    run replaces the law over resolutions.
+    with a law of its resolution alone leaves out, or if the scene is outside the range of the model. For a model
+    without a promise, the uncertainty that it states for a run replaces the law over resolutions.
     """
-    if task.has_grid_law_alone(model) and not task.states_left_out(model):
+    if task.outside.get(model.name) or (task.has_grid_law_alone(model) and not task.states_left_out(model)):
         return None
     left = left_out(task, task.chain(model))
     by_law = stated is None or task.promised(model)
@@ -384,9 +386,10 @@ def with_own_uncertainty(task: AdviceTask, model: Model, resolution: int, estima
     that the laws do not hold.
     """
     result = None if model.outside else _run(task, model, resolution)
-    outside = "" if result is None else task.kind.outside_laws(task.scene, result, task.quantity)
+    beyond_laws = "" if result is None else task.kind.outside_laws(task.scene, result, task.quantity)
+    outside = [*task.outside.get(model.name, ()), *([beyond_laws] if beyond_laws else [])]
     if outside:
-        return replace(estimate, reasons=(outside, *estimate.reasons), sure=False, decides=True)
+        return replace(estimate, reasons=(*outside, *estimate.reasons), sure=False, decides=True)
     own = None if model.outside else _from_itself(task, model, resolution)
     if own is None or own.error == 0:
         return estimate
@@ -408,12 +411,12 @@ def _cheap(task: AdviceTask, check: float, cost: float) -> bool:
 
 
 def _run(task: AdviceTask, model: Model, resolution: int) -> Result | None:
-    """The result of a model; None if the run fails or has not the quantity."""
+    """The result of a model; None if the run fails, has not the quantity or is outside the range of the model."""
     try:
         result = task.run(model, resolution)
     except (InputError, ConvergenceError, UnavailableError):
         return None
-    return result if task.quantity in result.quantities else None
+    return result if task.quantity in result.quantities and not result.outside else None
 
 
 def _from_itself(task: AdviceTask, model: Model, resolution: int) -> Estimate | None:

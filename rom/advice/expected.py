@@ -26,8 +26,9 @@ def with_errors(
 ) -> Result:
     """The result with the errors of its model in its quantities, and a warning where one is large.
 
-    An error is that of ``known`` where it has one, such as a measured one, otherwise that of the fitted laws. Every
-    command, page and file takes the errors from the result, so that they agree.
+    An error is that of ``known`` where it has one, such as a measured one, otherwise that of the fitted laws. Outside
+    the range of its model a result has no errors: they are unknown. Every command, page and file takes the errors from
+    the result, so that they agree.
 
     Parameters
     ----------
@@ -40,7 +41,8 @@ def with_errors(
     kind = kind_of_scene(scene)
     expected = expected_errors(scene, model, result, models)
     errors = {name: error for name, error in expected.items() if name in result.quantities}
-    errors |= {name: error for name, error in (known or {}).items() if math.isfinite(error.error)}
+    stated = {} if result.outside else known or {}
+    errors |= {name: error for name, error in stated.items() if math.isfinite(error.error)}
     errors = _with_ratios(kind, result, errors)
     before = error_warnings(kind, model.name, stated_errors(result))
     return replace(
@@ -70,8 +72,11 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
     Returns
     -------
     dict
-        The error that 95 of 100 scenes do not exceed, for each quantity whose laws hold for the scene and the result.
+        The error that 95 of 100 scenes do not exceed, for each quantity whose laws hold for the scene and the result;
+        none outside the range of the model.
     """
+    if result.outside:
+        return {}
     kind = kind_of_scene(scene)
     applying = [other for other in models if other.applies(scene).applies]
     errors: dict[str, StatedError] = {}

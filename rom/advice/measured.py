@@ -15,7 +15,7 @@ def with_measured_errors(scene: Scene, models: Sequence[Model], results: Mapping
 
     A measured error is the difference from the most complete model ± the error of that model, which is its own
     uncertainty, with the error that the laws expect if there is a still more complete one. Errors of quantities that
-    are not compared are those of the laws.
+    are not compared are those of the laws. Nothing is measured against a model outside its range.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def with_measured_errors(scene: Scene, models: Sequence[Model], results: Mapping
     judged = {top: with_errors(results[top], scene, by_name[top], models)}
     floor = stated_errors(judged[top])
     known: dict[str, dict[str, StatedError]] = {}
-    for one in to_best(scene, models, results):
+    for one in () if results[top].outside else to_best(scene, models, results):
         bar = floor[one.quantity].error if one.quantity in floor else one.uncertainty
         known.setdefault(one.model, {})[one.quantity] = measured(top, one.relative, bar)
     return {

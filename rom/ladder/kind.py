@@ -66,6 +66,11 @@ def within_laws(_scene: Any, _result: Any, _quantity: str) -> str:
     return ""
 
 
+def within_range(_scene: Any, _model: Any, _result: Result | None) -> tuple[str, ...]:
+    """Return no reasons, for kinds whose models hold for all of their scenes, or state their range themselves."""
+    return ()
+
+
 def nothing_absent(_scene: Any) -> frozenset[str]:
     """Return no effects, for kinds whose models keep no effect that one of their scenes lacks."""
     return frozenset()
@@ -179,6 +184,10 @@ class Kind:
         keeps them all: the best model for the scene misses least.
     outside_laws : outside_laws(scene, result, quantity), the reason for which a result shows that the error laws of a
         quantity do not hold; empty if it does not.
+    outside : outside(scene, model, result), one sentence for each way in which a scene is outside the range of a model,
+        with the number and its limit. The result is None before the scene is solved: the advice takes no such model.
+        Afterwards the sentences join those that the model itself puts into ``Result.outside``. It is cheap and does not
+        raise.
     faults : faults(error, entries), the faults of a scene, from pydantic's error; None for ``plain_faults``.
     sweeping : the data for a report over many cases; None if the kind has no such report.
     """
@@ -211,6 +220,7 @@ class Kind:
     omitted: Callable[[Any, Any, str], Omission | None] = nothing_omitted
     missing: Callable[[Any, Any], float] = nothing_missing
     outside_laws: Callable[[Any, Any, str], str] = within_laws
+    outside: Callable[[Any, Any, Result | None], Sequence[str]] = within_range
     files: frozenset[str] = frozenset()
     no_files: frozenset[str] = frozenset()
     replaces: Mapping[str, Sequence[str]] = field(default_factory=dict)

@@ -207,6 +207,7 @@ class Model(Generic[SceneT]):
         Result
             Quantities and fields of the scene, with a residual that is recomputed from the solution. Its numerics hold
             the one-time costs of this process since the result before, such as a table or the surface of the scene.
+            ``outside`` says where the scene or its solution is outside the range of the model.
 
         Raises
         ------
@@ -232,7 +233,13 @@ class Model(Generic[SceneT]):
                 )
             result = with_finite_numbers(self.compute(self, scene, checked, progress))
         waited = max(time.perf_counter() - started, result.numerics.wall_s)
-        return replace(result, numerics=replace(result.numerics, wall_s=waited, one_time=claimed_costs()))
+        numerics = replace(result.numerics, wall_s=waited, one_time=claimed_costs())
+        return self.bounded(scene, replace(result, numerics=numerics))
+
+    def bounded(self, scene: SceneT, result: Result) -> Result:
+        """The result of a scene with all ways in which the scene or its solution is outside the range of the model."""
+        found = dict.fromkeys((*result.outside, *kind_of_scene(scene).outside(scene, self, result)))
+        return replace(result, outside=tuple(found))
 
     def checked(self, scene: SceneT, request: Request) -> CheckedRequest:
         """The request with the model's defaults filled in; InputError for an option that the model does not allow."""

@@ -113,8 +113,11 @@ class Result:
     fields : arrays with units, by name.
     numerics : accuracy, cost and options of the computation.
     provenance : scene, versions, commit, machine, sources and time, from which the result can be computed again.
-    warnings : one sentence for each way in which the model leaves its range or the computation is coarse.
-    expected_error : relative error of the model in a quantity by a fitted law, by quantity; empty without a law.
+    warnings : one sentence for each way in which the computation is coarse, or its result needs care.
+    outside : one sentence for each way in which the scene or its solution is outside the range of the model, with the
+        number and its limit. The error of the model is then unknown, and no tolerance is met.
+    expected_error : relative error of the model in a quantity by a fitted law, by quantity; empty without a law, and
+        outside the range of the model.
 
     Examples
     --------
@@ -131,6 +134,7 @@ class Result:
     numerics: Numerics
     provenance: Mapping[str, Any] = field(repr=False)
     warnings: tuple[str, ...] = ()
+    outside: tuple[str, ...] = ()
     expected_error: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
@@ -152,6 +156,7 @@ class Result:
         )
         first = f": {self.warnings[0]}" if self.warnings else ""
         lines.append(f"warnings: {len(self.warnings)}{first}")
+        lines += [f"outside the range of the model: {reason}" for reason in self.outside]
         return "\n".join(line if len(line) <= WIDTH else f"{line[: WIDTH - 3]}..." for line in lines)
 
     def __getitem__(self, name: str) -> Quantity:
@@ -176,7 +181,8 @@ class Result:
         attributes ``uncertainty`` (95 % half width, in the unit) and ``expected_error`` (of the model, over the size of
         the quantity) where these are known. Positions are coordinates: ``position`` along a wall, ``x`` and ``y`` of a
         grid, ``cell_x``, ``cell_y`` and ``cell_z`` of the centres of cells. The attributes ``model``, ``warnings``,
-        ``numerics`` and ``provenance`` of the dataset are texts, the last two as JSON; ``to_netcdf`` writes them all.
+        ``outside``, ``numerics`` and ``provenance`` of the dataset are texts, the last two as JSON; ``to_netcdf``
+        writes them all.
 
         Raises
         ------
@@ -199,6 +205,7 @@ class Result:
             {
                 "model": self.model,
                 "warnings": "; ".join(self.warnings),
+                "outside": "; ".join(self.outside),
                 "numerics": json.dumps(asdict(self.numerics), default=np.generic.item),
                 "provenance": json.dumps(dict(self.provenance), default=np.generic.item),
             },

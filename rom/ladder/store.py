@@ -47,6 +47,7 @@ class Provenance:
 ENTRIES = {
     "numerics": Json(kind=Numerics, missing=True),
     "warnings": Json(kind=tuple[str, ...]),
+    "outside": Json(kind=tuple[str, ...], optional=True),
     "expected_error": Json(kind=dict[str, float], missing=True),
     "provenance": Json(kind=dict[str, Any]),
 }
@@ -157,6 +158,7 @@ def _result(content: Content, entries: Mapping[str, Any], with_fields: bool) -> 
         numerics=entries["@numerics"],
         provenance=entries["@provenance"],
         warnings=entries["@warnings"],
+        outside=entries["@outside"] or (),
         expected_error=entries["@expected_error"],
     )
 
@@ -187,6 +189,7 @@ def _result_of_schema_2(content: Content, with_fields: bool) -> Result:
         entries = {
             "@numerics": from_json(json.dumps(numerics), Numerics),
             "@warnings": from_json(json.dumps(old.pop("warnings", [])), tuple[str, ...]),
+            "@outside": (),
             "@expected_error": {},
             "@provenance": old,
         }
@@ -204,6 +207,7 @@ def as_entries(result: Result) -> dict[str, Any]:
         "quantities": {name: asdict(quantity) for name, quantity in result.quantities.items()},
         "numerics": asdict(result.numerics),
         "warnings": list(result.warnings),
+        "outside": list(result.outside),
         "expected_error": dict(result.expected_error),
         "provenance": dict(result.provenance),
     }

@@ -58,6 +58,7 @@ def row_of(keys: Mapping[str, Key], case: Case, job: Job, answer: Result | Failu
             "iterations": _number(numbers.iterations),
             "cpu_s": Quantity(value=numbers.cpu_s, unit="s"),
             "warnings": "; ".join(answer.warnings),
+            "outside": "; ".join(answer.outside),
         },
     )
 
@@ -93,8 +94,8 @@ def _expected_errors(case: Case, answer: Result) -> dict[str, Cell]:
 
 
 def warned(rows: Iterable[TableRow]) -> int:
-    """The number of rows with a warning."""
-    return sum(bool(numerics.get("warnings")) for _, _, numerics in rows)
+    """The number of rows with a warning, or outside the range of their model."""
+    return sum(bool(numerics.get("warnings") or numerics.get("outside")) for _, _, numerics in rows)
 
 
 def columns(rows: Sequence[TableRow]) -> dict[str, Column]:

@@ -214,7 +214,7 @@ def _judged(manifest: Manifest, job: Job, directory: Path, state: str, edits: Se
     """The result of a case that has finished, with a warning for each way in which it is not what was generated."""
     model = job.setting.model
     assert isinstance(model, CaseModel)
-    result = model.read(job.scene, directory, model.kept_run(directory))
+    result = model.bounded(job.scene, model.read(job.scene, directory, model.kept_run(directory)))
     warnings = [*_edited(edits), *result.warnings]
     if manifest.settings[job.setting.name].code != result.provenance["code"]:
         warnings.append("the case was written by another version of roughfilm than the one that read its result")

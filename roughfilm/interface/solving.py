@@ -125,6 +125,7 @@ def solve(
     Result
         ``result["load"]`` has ``value``, ``unit`` and ``uncertainty`` (numerical, None if unknown). ``expected_error``
         holds the error of the model over the size of the quantity, if the scene is in the range of a fitted law.
+        ``outside`` holds a sentence for each way in which the scene is outside the range of the model.
         ``fields["pressure"].values`` is an array; ``warnings`` holds sentences.
 
     Raises

@@ -38,8 +38,8 @@ def sweep(
         A row for each combination and model, which pandas.DataFrame accepts. The columns are the keys of ``values``,
         "model", "resolution", "outcome" ("solved" or the reason for a missing result), the quantities by name,
         "<name>_uncertainty" (95 % half width, if known), "<name>_expected_error" (error of the model over the size of
-        the quantity, if a law gives it), "cpu_s" and "warnings". Numbers are in SI units; ``units`` holds them by
-        column.
+        the quantity, if a law gives it), "cpu_s", "warnings" and "outside" (how the scene is outside the range of the
+        model, if it is). Numbers are in SI units; ``units`` holds them by column.
 
     Raises
     ------
@@ -88,6 +88,7 @@ def sweep(
                         "1",
                     )
             row |= {"cpu_s": answer.numerics.cpu_s, "warnings": "; ".join(answer.warnings)}
+            row["outside"] = "; ".join(answer.outside)
             rows.units["cpu_s"] = "s"
     return rows
 

@@ -19,7 +19,7 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.studies.comparison import Difference, Point, relative_uncertainty
 from roughfilm.rom.studies.convergence import Convergence
-from roughfilm.words.headline import STATED, headline, listed, whole
+from roughfilm.words.headline import STATED, headline, listed, outside_in_words, whole
 from roughfilm.words.numbers import percent
 from roughfilm.words.scales import Scales, scales_of
 
@@ -241,8 +241,8 @@ def _convergence(report: Report, scales: Scales) -> list[dict[str, Any]]:
 
 
 def _warnings(report: Report) -> list[tuple[str, str]]:
-    """The warnings by model, without those on large errors, which the table shows."""
-    return [
+    """What is outside the range of each model, and the warnings, without those on errors, which the table shows."""
+    return [(name, outside_in_words(result)) for name, result in report.results.items() if result.outside] + [
         (name, warning)
         for name, result in report.results.items()
         for warning in result.warnings

@@ -119,7 +119,7 @@ def _parameters(cell: Surface, gap: float | None) -> dict[str, Quantity]:
 
 def _dry_contact(scene: DryContact) -> tuple[Mapping[str, Quantity], tuple[str, ...]]:
     result = _solved(scene, "elastic" if scene.solid.hardness is None else "elastic_plastic")
-    return result.quantities, result.warnings
+    return result.quantities, (*result.outside, *result.warnings)
 
 
 def _seal(scene: Seal, sealing: bool) -> tuple[Mapping[str, Quantity], tuple[str, ...]]:
@@ -128,7 +128,7 @@ def _seal(scene: Seal, sealing: bool) -> tuple[Mapping[str, Quantity], tuple[str
     gap = result.fields["gap"].values
     factors = _factors(gap, scene.surface().spacing, result.quantities["mean_gap"].uncertainty) if gap.any() else {}
     more = {"sealing_load": _sealing_load(scene)} if sealing else {}
-    return {**result.quantities, **more, **factors}, result.warnings
+    return {**result.quantities, **more, **factors}, (*result.outside, *result.warnings)
 
 
 def _solved(scene: Scene, model: str) -> Result:

@@ -209,7 +209,7 @@ def judged_estimate(falling: str, before: list[Result], answer: tuple[Scene, Res
         by_laws,
         right=right,
         error=error,
-        reported=bool(result.warnings) or off <= (found.uncertainty or 0.0),
+        reported=bool(result.warnings or result.outside) or off <= (found.uncertainty or 0.0),
         message="" if right else f"{falling} is {found.value:.3g}, {true:.3g} by {REFERENCE}",
     )
 

@@ -88,6 +88,11 @@ def included(scene: Scene, model: Model, models: Sequence[Model]) -> str:
     return f"{model.name}{rank}{words}"
 
 
+def outside_in_words(result: Result) -> str:
+    """The ways in which a result is outside the range of its model, in one line; "" if it is inside."""
+    return f"outside the range of the model: {'; '.join(result.outside)}; error unknown" if result.outside else ""
+
+
 def sureness(result: Result, origin: str = STATED) -> str:
     """The numerical uncertainty of the answer and the error of the model in words, each with its origin."""
     kind = kind_of(result)
@@ -99,6 +104,8 @@ def sureness(result: Result, origin: str = STATED) -> str:
         numerical = "the numerical uncertainty is negligible"
     else:
         numerical = f"± is the numerical uncertainty, {percent(one.uncertainty / size)} ({origin})"
+    if result.outside:
+        return f"{outside_in_words(result)}; {numerical}"
     error = stated_errors(result).get(name)
     if error is None or not math.isfinite(error.error) or error.source == BY_ITS_RUN:
         return f"{numerical}; effects that the model leaves out are not in it"

@@ -6,13 +6,15 @@ from roughfilm.rom.advice.stated import LEAST_STATED, percent, stated_errors
 from roughfilm.rom.ladder.kind import kind_of
 from roughfilm.rom.ladder.result import Result
 from roughfilm.words.cost import cost_in_words
-from roughfilm.words.headline import whole
+from roughfilm.words.headline import outside_in_words, whole
 from roughfilm.words.numbers import digits
 from roughfilm.words.units import scale_of, without_round_off
 
 
 def summary(result: Result, quantity: str, within: float) -> str:
     """The value of a quantity, its error compared with a tolerance, and the cost, in one line.
+
+    A result outside the range of its model says so first.
 
     Parameters
     ----------
@@ -23,6 +25,8 @@ def summary(result: Result, quantity: str, within: float) -> str:
     if quantity.startswith("leakage") and "sealed" in result.quantities and result["sealed"].value == 1:
         return f"sealed, no leakage, by {result.model}; {cost_in_words(result)}"
     value, error = value_of(result, quantity), judgement(result, quantity, within)
+    if result.outside:
+        return f"{error}; {value} by {result.model}; {cost_in_words(result)}"
     return f"{value} by {result.model}; {error}; {cost_in_words(result)}"
 
 
@@ -43,6 +47,8 @@ def value_of(result: Result, quantity: str) -> str:
 
 def judgement(result: Result, quantity: str, within: float) -> str:
     """Whether the error of a quantity is within a tolerance, with the error and its source."""
+    if result.outside:
+        return outside_in_words(result)
     error = stated_errors(result).get(quantity)
     if error is None or not math.isfinite(error.error):
         return f"error unknown, not known to be enough for {percent(within)}"

@@ -51,7 +51,7 @@ def answer(model: Model, scene: Scene) -> Answer:
         expected_error=dict(found.expected_error),
         cpu_s=found.numerics.cpu_s,
         resolution=found.numerics.resolution,
-        warnings=found.warnings,
+        warnings=(*found.outside, *found.warnings),
     )
 
 

@@ -7,9 +7,12 @@ import pytest
 from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.ladder import find, models
 from roughfilm.rom.advice.advise import Verdict, advise, shortfall, wanted
+from roughfilm.rom.advice.expected import with_errors
 from roughfilm.rom.advice.laws import RESOLVING, Grid, Law, Promise, Step, Table, Term, read_table, table
-from roughfilm.rom.advice.stated import percent
+from roughfilm.rom.advice.measured import with_measured_errors
+from roughfilm.rom.advice.stated import StatedError, percent, stated_errors
 from roughfilm.rom.ladder.kind import Omission, kind_of_laws, kinds
 from roughfilm.rom.ladder.model import (
     OF_LUBRICANT,
@@ -23,6 +26,8 @@ from roughfilm.rom.ladder.model import (
     of_kind,
 )
 from roughfilm.rom.ladder.result import Numerics, Result
+from roughfilm.words.headline import sureness
+from roughfilm.words.summary import summary
 
 ALL = ladder(rom, foamcases)
 
@@ -491,3 +496,64 @@ def test_an_uncertainty_that_a_run_states_is_believed_rather_than_the_law_of_its
     assert (found.chosen.model, found.chosen.resolution) == ("film", 16)
     assert found.chosen.error == pytest.approx(0.02)
     assert fakes.advise(scene, 0.3).chosen.resolution == 8
+
+
+TURBULENT = "Re = 2e4 exceeds 1440, above which shear flow is turbulent"
+
+
+def bounded(monkeypatch, outside):
+    """The pocket's kind with a range of its models: outside(model, result)."""
+    kind = replace(kinds()["pocket"], outside=lambda _scene, model, result: outside(model.name, result))
+    monkeypatch.setattr("roughfilm.rom.pocket.kind.KIND", kind)
+
+
+def test_a_model_outside_its_range_is_not_run_and_not_chosen(scene, monkeypatch):
+    bounded(monkeypatch, lambda name, _result: [TURBULENT] if name == "reynolds" else [])
+    fakes = Fakes({"reynolds": 0.001, "film": 0.002}, {"reynolds": 1.0, "film": 1.0})
+    found = fakes.advise(scene, 0.05)
+    assert (found.chosen.model, fakes.ran) == ("film", ["film"])
+    (reynolds,) = [one for one in found.considered if one.model == "reynolds"]
+    assert (reynolds.verdict, reynolds.error, reynolds.sure) == (Verdict.NOT_ENOUGH, None, False)
+    assert TURBULENT in reynolds.why
+
+
+def test_a_solution_outside_the_range_of_its_model_is_not_chosen(scene, monkeypatch):
+    bounded(monkeypatch, lambda name, result: [TURBULENT] if name == "reynolds" and result else [])
+    found = Fakes({"reynolds": 0.001, "film": 0.002}, {"reynolds": 1.0, "film": 1.0}).advise(scene, 0.05)
+    assert found.chosen.model == "film"
+    assert TURBULENT in next(one for one in found.considered if one.model == "reynolds").why
+
+
+def test_nothing_is_measured_against_a_solution_outside_its_range(scene, monkeypatch):
+    bounded(monkeypatch, lambda name, result: [TURBULENT] if name == "film" and result else [])
+    found = Fakes({"reynolds": None, "film": 0.01}, {"reynolds": 1.0, "film": 1.0}).advise(scene, 0.05)
+    assert next(one for one in found.considered if one.model == "reynolds").error is None
+    assert found.chosen is None or found.chosen.model == "navier_stokes"
+
+
+def test_where_every_model_is_outside_its_range_none_is_advised_and_it_is_said_why(scene, monkeypatch):
+    bounded(monkeypatch, lambda _name, _result: [TURBULENT])
+    found = Fakes({"reynolds": 0.001, "film": 0.001}).advise(scene, 0.5)
+    assert (found.chosen, found.nearest) == (None, None)
+    assert found.fallback.model == "navier_stokes"
+    assert shortfall(found) == f"no model here is known to give the load within 50 %: {TURBULENT}"
+
+
+def test_a_result_outside_the_range_of_its_model_has_no_error_and_says_so_first(scene, monkeypatch):
+    model = find("pocket", "film_slope")
+    inside = with_errors(model.solve(scene), scene, model, models("pocket"))
+    assert inside.outside == ()
+    assert inside.expected_error["load_plus"] < 1
+    bounded(monkeypatch, lambda _name, _result: [TURBULENT])
+    known = {"load_plus": StatedError(error=0.01, source="by another run")}
+    outside = with_errors(model.solve(scene), scene, model, models("pocket"), known=known)
+    assert (outside.outside, outside.expected_error, stated_errors(outside)) == ((TURBULENT,), {}, {})
+    assert summary(outside, "load_plus", 0.05).startswith(
+        f"outside the range of the model: {TURBULENT}; error unknown; load "
+    )
+    assert "enough" not in summary(outside, "load_plus", 0.05)
+    assert f"outside the range of the model: {TURBULENT}" in sureness(outside)
+    assert TURBULENT in repr(outside).splitlines()[-1]
+    both = {name: find("pocket", name).solve(scene) for name in ("reynolds", "film_slope")}
+    judged = with_measured_errors(scene, models("pocket"), both)
+    assert not any(one.expected_error for one in judged.values())

@@ -11,6 +11,7 @@ from forging import forge
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.ladder import find
+from roughfilm.rom.ladder import store
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import SolverRun, with_uncertainties
 from roughfilm.rom.ladder.scene import read_scene
@@ -42,6 +43,7 @@ def test_what_a_result_says_of_its_accuracy_is_stored(result, tmp_path):
         quantities=with_uncertainties(result.quantities, {"load_plus": 0.25, "friction_plus": np.inf}),
         numerics=replace(result.numerics, processes=2, runs=runs, details={"layers": 8}),
         warnings=("the mesh is coarse", "out of range"),
+        outside=("Re = 1.7e4 exceeds 1440, above which shear flow is turbulent",),
         expected_error={"load_plus": 0.02},
     )
     save(full, tmp_path / "r.h5")
@@ -109,6 +111,13 @@ def test_an_old_result_without_warnings_is_read(tmp_path):
     write_schema_2(tmp_path / "old.h5", {"scene": {"kind": "rough_gap"}})
     found = load(tmp_path / "old.h5")
     assert (found.warnings, found.numerics.runs, found["A11"].uncertainty) == ((), (), None)
+
+
+def test_a_result_of_before_ranges_were_stored_is_inside_its_range(result, tmp_path, monkeypatch):
+    monkeypatch.setattr(store, "ENTRIES", {name: item for name, item in store.ENTRIES.items() if name != "outside"})
+    save(replace(result, outside=("Re is too large",)), tmp_path / "old.h5")
+    monkeypatch.undo()
+    assert load(tmp_path / "old.h5").outside == ()
 
 
 def test_results_of_an_unknown_schema_are_refused(result, tmp_path):
