@@ -4,9 +4,10 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, GetCoreSchemaHandler
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, GetCoreSchemaHandler
 from pydantic_core import core_schema
 
 from roughfilm.contact.foundation.errors import InputError
@@ -108,6 +109,53 @@ class InUnit:
         return number
 
 
+class FileText(str):
+    """A text in a file of entries, which knows the folder of the file."""
+
+    folder: Path
+
+
+def in_folder(entry: Any, folder: Path) -> Any:
+    """The entry with every text in it, also in tables and lists, marked as one in a file of this folder."""
+    if isinstance(entry, dict):
+        return {key: in_folder(value, folder) for key, value in entry.items()}
+    if isinstance(entry, list):
+        return [in_folder(value, folder) for value in entry]
+    if not isinstance(entry, str):
+        return entry
+    text = FileText(entry)
+    text.folder = folder
+    return text
+
+
+def file_name(entry: object) -> object:
+    """The name of a file: one that :func:`in_folder` marks is relative to its folder, unless it begins with "~"."""
+    if not isinstance(entry, FileText):
+        return entry
+    return str(entry) if entry.startswith("~") else str(entry.folder / entry)
+
+
+@dataclass(frozen=True)
+class NamesFile:
+    """Annotation of an entry that is the name of a file, or may be one in place of a table.
+
+    A serialisation with the context ``{"files": names}`` adds the name to the set ``names``.
+    """
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
+        inner = handler(source)
+        return core_schema.no_info_before_validator_function(
+            file_name,
+            inner,
+            serialization=core_schema.wrap_serializer_function_ser_schema(self._noted, schema=inner, info_arg=True),
+        )
+
+    def _noted(self, value: Any, serialize: Any, info: core_schema.SerializationInfo) -> Any:
+        if isinstance(value, str) and info.context and "files" in info.context:
+            info.context["files"].add(value)
+        return serialize(value)
+
+
 def _pair(given: object) -> object:
     """The values along x and y; a single value is used for both."""
     values = given.split(",") if isinstance(given, str) else given if isinstance(given, list | tuple) else [given]
@@ -122,6 +170,9 @@ def _pair(given: object) -> object:
 
 Length = Annotated[float, InUnit("m")]
 LengthPair = Annotated[tuple[Length, Length], BeforeValidator(_pair)]
+ScenePath = Annotated[str, Field(min_length=1), NamesFile()]
+"""The name of a file."""
+
 Coordinate = Annotated[float, InUnit("m", any_sign=True)]
 Angle = Annotated[float, InUnit("rad", any_sign=True)]
 PositiveNumber = Annotated[float, BeforeValidator(plain_number), AfterValidator(_positive)]

@@ -3,7 +3,7 @@
 import json
 import re
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -94,10 +94,10 @@ def set_entry(
     entries: dict[str, Any],
     override: str,
     example: str,
-    replaces: Mapping[str, Sequence[str]] | None = None,
+    replaced: Callable[[str, Any], Sequence[str]] | None = None,
     *,
     in_si_units: bool = False,
-) -> None:
+) -> tuple[str, ...]:
     """Set one key of nested entries in place, from a text such as ``geometry.depth=22.5um``.
 
     A number in the path selects a table from a list of tables.
@@ -107,8 +107,12 @@ def set_entry(
     entries : the nested entries, which are changed.
     override : the assignment, ``dotted.key=value``.
     example : a correct assignment, for messages.
-    replaces : by dotted key, the keys of the same table that are removed when it is set.
+    replaced : replaced(key, value), the keys of the same table that a value removes.
     in_si_units : whether a plain number is in SI units, where a number with a unit is asked.
+
+    Returns
+    -------
+    the dotted keys that the value removes, whether they were there or not.
 
     Raises
     ------
@@ -134,10 +138,12 @@ def set_entry(
         _chosen(table, last, f"set {override}: got {last!r} as a number in the list {'.'.join(path)!r}")
     if not isinstance(table, dict):
         raise InputError(f"set {override}: {path[-1]!r} is not a table; write for example {example}")
-    for other in (replaces or {}).get(key, ()):
-        table.pop(other, None)
     value = _value(text.strip())
+    others = replaced(key, value) if replaced else ()
+    for other in others:
+        table.pop(other, None)
     table[last] = in_si(value) if in_si_units else value
+    return tuple(".".join((*path, other)) for other in others)
 
 
 def _chosen(entries: Sequence[object], number: str, message: str) -> object:

@@ -126,6 +126,12 @@ def _surface(
         raise InputError(f"{path}: {str(error).removeprefix('surface: ')}") from None
 
 
+def has_header(path: Path) -> bool:
+    """Whether a file is CSV with a header that gives the spacing and the unit of its heights."""
+    with opened(path, "name a measured surface") as file:
+        return path.suffix.lower() == ".csv" and file.read(16).lstrip().startswith(b"#")
+
+
 def file_digest(path: Path) -> str:
     """The SHA-256 digest of the bytes of a file, in hexadecimal."""
     with opened(path, "name a measured surface") as file:

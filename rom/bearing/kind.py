@@ -29,6 +29,7 @@ from roughfilm.rom.ladder.kind import InTime, Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.lubricants.laws import LAWS, THERMAL_LAWS
 from roughfilm.rom.lubricants.shear_thinning import THINNING_LAWS
+from roughfilm.rom.parts.surface_geometry import replaced_by
 
 NEVER_COMPRESSED = 1e-12
 """Compression that stands for an incompressible lubricant in fits."""
@@ -354,7 +355,6 @@ KIND = Kind(
     lawless=squeezed,
     omitted=omitted,
     missing=missing,
-    files=frozenset({"table", "surface", "thickness", "file"}),
     lists=frozenset(
         {
             ("roughness", "spacing"),
@@ -408,7 +408,7 @@ KIND = Kind(
             "stretch",
             "table",
         ),
-        "roughness.surface": ("digest", "spacing"),
+        "roughness.surface": replaced_by,
         "roughness.table": ("digest",),
         "geometry.thickness": ("digest",),
         "motion.over_time.file": ("digest",),

@@ -10,7 +10,7 @@ import scipy
 from pydantic import Field, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.entries import Angle, Length, Part, PositiveNumber
+from roughfilm.contact.foundation.entries import Angle, Length, Part, PositiveNumber, ScenePath
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.reading.regular import file_size
 from roughfilm.contact.surfaces.files import file_digest
@@ -225,7 +225,7 @@ class StoredTable(Part):
     """
 
     kind: Literal["table"]
-    table: Annotated[str, Field(min_length=1)]
+    table: ScenePath
     digest: str | None = None
 
     @model_validator(mode="after")

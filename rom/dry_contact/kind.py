@@ -11,6 +11,7 @@ from roughfilm.rom.dry_contact.scene import DryContact
 from roughfilm.rom.ladder.kind import Kind
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.parts.pressed_surface import RoughContact
+from roughfilm.rom.parts.surface_geometry import replaced_by
 
 MIN_GAP_SCALE = 1e-3
 """Mean gap over the rms height below which errors are relative to this value."""
@@ -114,8 +115,7 @@ KIND = Kind(
     numbers=numbers,
     symbols=NUMBERS,
     excluded="friction, adhesion and hardening",
-    files=frozenset({"surface"}),
-    replaces={"geometry.surface": ("digest", "spacing")},
+    replaces={"geometry.surface": replaced_by},
     lists=frozenset({("geometry", "spacing"), ("geometry", "surface", "size"), ("geometry", "surface", "points")}),
     sweeping=Sweeping(
         given={"rough_surface": None, "pressure_ratio": None, "hardness_ratio": NEVER_PLASTIC, "nayak": None},

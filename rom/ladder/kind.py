@@ -165,9 +165,7 @@ class Kind:
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
     columns : columns(scene), dimensionless numbers and texts of a scene for a table of many cases.
-    files : keys whose texts name files, relative to the scene file.
-    no_files : texts of these keys that do not name a file.
-    replaces : keys of the same table that an override of a key removes.
+    replaces : keys of the same table that an override of a key removes, or a function of its value that returns them.
     lists : places of lists that are one value. A study sweeps every other list, and lists of such values.
     numbers : numbers(scene), the dimensionless numbers of the error laws, without those that have no meaning.
     symbols : the symbols of these numbers.
@@ -221,9 +219,7 @@ class Kind:
     missing: Callable[[Any, Any], float] = nothing_missing
     outside_laws: Callable[[Any, Any, str], str] = within_laws
     outside: Callable[[Any, Any, Result | None], Sequence[str]] = within_range
-    files: frozenset[str] = frozenset()
-    no_files: frozenset[str] = frozenset()
-    replaces: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    replaces: Mapping[str, Sequence[str] | Callable[[Any], Sequence[str]]] = field(default_factory=dict)
     lists: frozenset[tuple[str | int, ...]] = frozenset()
     faults: Callable[[ValidationError, Mapping[str, Any]], Sequence[Fault]] | None = None
     sweeping: Sweeping | None = None
@@ -232,6 +228,11 @@ class Kind:
     def titles(self) -> Mapping[str, str]:
         """The names in a sentence of all quantities, the compared ones first."""
         return {**self.compared, **self.others}
+
+    def replaced(self, key: str, value: object) -> Sequence[str]:
+        """The keys of the same table that an override of a key by a value removes."""
+        keys = self.replaces.get(key, ())
+        return keys(value) if callable(keys) else keys
 
     def excluded_from(self, scene: Scene) -> str:
         """The effects that no model of the kind includes for a scene, in words."""

@@ -6,10 +6,14 @@ from typing import Any
 
 from pydantic import ConfigDict, ValidationError, field_validator
 
+from roughfilm.contact.foundation.entries import in_folder
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.faults import EntriesFile, faults_of, in_lines
 from roughfilm.contact.foundation.toml import read_toml, set_entry
-from roughfilm.rom.ladder.kind import Kind, Scene, kind_names, kind_of_name, kinds
+from roughfilm.rom.ladder.kind import Kind, Scene, kind_names, kind_of_name
+
+EXAMPLE = "geometry.depth=22.5um"
+"""A correct override, for messages."""
 
 
 class _OfNoKind(Scene):
@@ -24,21 +28,14 @@ class _OfNoKind(Scene):
 
 
 def load_entries(path: Path) -> dict[str, Any]:
-    """The nested entries of a TOML file, with its folder put before the relative names of files in it.
+    """The nested entries of a TOML file; the names of files in it are relative to its folder.
 
     Raises
     ------
     InputError
         In one line, if the file cannot be read, is not TOML, or is nested too deeply.
     """
-    entries = read_toml(path, 'film = "30 um"')
-    try:
-        kind = kind_named(entries)
-        keys = kind.files if kind else frozenset[str]().union(*(kind.files for kind in kinds().values()))
-        kept = kind.no_files if kind else frozenset[str]()
-        _seek_files(entries, Path(path).parent, keys, kept)
-    except RecursionError as error:
-        raise InputError(f"{path}: its tables are nested too deeply; a scene has three levels") from error
+    entries: dict[str, Any] = in_folder(read_toml(path, 'film = "30 um"'), Path(path).parent)
     return entries
 
 
@@ -61,14 +58,12 @@ def load_scene(path: Path, overrides: Iterable[str] = (), in_si_units: Container
     """
     entries = load_entries(path)
     kind = kind_named(entries)
-    replaces = kind.replaces if kind else {}
+    replaced = kind.replaced if kind else None
     given: dict[str, tuple[int | str, ...]] = {}
     for override in overrides:
         key = override.partition("=")[0].strip()
-        set_entry(entries, override, "geometry.depth=22.5um", replaces, in_si_units=key in in_si_units)
-        table = key.rpartition(".")[0]
-        for other in replaces.get(key, ()):
-            if (taken := f"{table}.{other}") in given:
+        for taken in set_entry(entries, override, EXAMPLE, replaced, in_si_units=key in in_si_units):
+            if taken in given:
                 raise InputError(f"set {override}: it takes the place of {taken}, which is set too; set one of them")
         given[key] = tuple(int(part) if part.isdigit() else part for part in key.split("."))
     return read_scene(entries, EntriesFile(path=Path(path), changed=given.values()))
@@ -99,25 +94,13 @@ def scene_entries(scene: Scene) -> dict[str, Any]:
     return scene.model_dump(mode="json", exclude_none=True)
 
 
+def named_files(scene: Scene) -> frozenset[str]:
+    """The names of the files that a scene reads whenever it is solved, such as those of surfaces."""
+    names = set[str]()
+    scene.model_dump(context={"files": names})
+    return frozenset(names)
+
+
 def given_entries(scene: Scene) -> dict[str, Any]:
     """The entries of a scene, to change some: without those that others determine, such as the density of an oil."""
     return scene.model_dump(mode="json", exclude_none=True, context={"given": True})
-
-
-def _seek_files(entry: Any, directory: Path, keys: frozenset[str], kept: frozenset[str]) -> None:
-    """Put the directory before every name of a file that is neither absolute nor begins with "~"."""
-
-    def sought(name: object) -> object:
-        if not isinstance(name, str) or name in kept or name.startswith("~"):
-            return name
-        return str(directory / name)
-
-    if isinstance(entry, dict):
-        for key in keys & entry.keys():
-            names = entry[key]
-            entry[key] = [sought(name) for name in names] if isinstance(names, list) else sought(names)
-        for inner in entry.values():
-            _seek_files(inner, directory, keys, kept)
-    elif isinstance(entry, list):
-        for inner in entry:
-            _seek_files(inner, directory, keys, kept)

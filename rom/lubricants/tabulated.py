@@ -2,13 +2,13 @@
 
 from functools import cached_property
 from itertools import pairwise
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import BeforeValidator, PlainSerializer, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.entries import NamesFile
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.rom.lubricants.compressibility import DowsonHigginson
@@ -35,7 +35,7 @@ def checked(table: object) -> Table:
     """
     if isinstance(table, str):
         try:
-            return checked(read_rows(Path(table), COLUMNS, header=HEADER))
+            return checked(read_rows(table, COLUMNS, header=HEADER))
         except ValueError as error:
             raise ValueError(f"file {table!r:.200}: {error}") from error
     if not isinstance(table, list | tuple) or not MIN_ROWS <= len(table) <= MAX_ROWS:
@@ -65,7 +65,9 @@ class Tabulated(LubricantLaw):
     """
 
     law: Literal["tabulated"]
-    table: Annotated[Table, BeforeValidator(checked), PlainSerializer(lambda table: [list(row) for row in table])]
+    table: Annotated[
+        Table, BeforeValidator(checked), PlainSerializer(lambda table: [list(row) for row in table]), NamesFile()
+    ]
     fit: Literal["dowson_higginson"] | None = None
 
     @model_validator(mode="after")

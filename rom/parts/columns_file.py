@@ -22,11 +22,12 @@ MAX_BYTES = 1_000_000
 _COLUMN = re.compile(r"(\w{1,20}) ?[(\[]([^()\[\]]{1,40})[)\]]")
 
 
-def read_rows(path: Path, columns: Mapping[str, str], *, header: str) -> list[list[float]]:
+def read_rows(name: str, columns: Mapping[str, str], *, header: str) -> list[list[float]]:
     """The rows of a file: NPY of shape (n, 2) in SI units, or CSV with a header of two names and units.
 
     Parameters
     ----------
+    name : path of the file; "~" at its beginning is the user's directory.
     columns : name of each column and its SI unit.
     header : example of a header for messages, such as ``position (um), depth (um)``.
 
@@ -35,6 +36,7 @@ def read_rows(path: Path, columns: Mapping[str, str], *, header: str) -> list[li
     ValueError
         If the file cannot be read, or a row is invalid.
     """
+    path = Path(name).expanduser()
     try:
         if file_size(path, "name a file of points") > MAX_BYTES:
             raise InputError(f"{path}: is larger than {MAX_BYTES} bytes; give at most {MAX_ROWS} points")

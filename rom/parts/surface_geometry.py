@@ -2,19 +2,20 @@
 
 import hashlib
 import json
+from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, Self
 
 from pydantic import BeforeValidator, PlainSerializer, model_validator
 
-from roughfilm.contact.foundation.entries import LengthPair, Part
+from roughfilm.contact.foundation.entries import LengthPair, NamesFile, Part
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.reading.regular import file_size
 from roughfilm.contact.foundation.timing import one_time
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.mechanics.moments import WavePower, wave_power
-from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.surfaces.files import has_header, read_surface
 from roughfilm.contact.surfaces.plausibility import implausible
 from roughfilm.contact.surfaces.store import is_surface
 from roughfilm.contact.surfaces.surface import Surface
@@ -59,7 +60,7 @@ class SurfaceGeometry(Part):
     digest : digest of the heights in the file; a file that has changed since is rejected.
     """
 
-    surface: Annotated[str | dict[str, Any], BeforeValidator(_described)]
+    surface: Annotated[str | dict[str, Any], BeforeValidator(_described), NamesFile()]
     spacing: Annotated[
         LengthPair | None,
         PlainSerializer(lambda pair: None if pair is None else [with_unit(length, "m") for length in pair]),
@@ -131,6 +132,21 @@ class SurfaceGeometry(Part):
     def spectrum(self) -> WavePower | None:
         """The mean square of the heights by wave; None for a flat surface."""
         return _spectrum(self.model_dump_json(exclude_none=True))
+
+
+def replaced_by(surface: object) -> Sequence[str]:
+    """The keys beside a surface that a new one replaces: its digest, and the spacing if the new one has its own."""
+    return "digest", *(() if isinstance(surface, str) and _lacks_spacing(Path(surface).expanduser()) else ("spacing",))
+
+
+def _lacks_spacing(path: Path) -> bool:
+    """Whether a file holds heights without the spacing of its points."""
+    if path.suffix.lower() not in PLAIN_FORMATS:
+        return False
+    try:
+        return not (is_surface(path) or has_header(path))
+    except InputError:  # which the reading of the scene raises again, with its place
+        return True
 
 
 def digest_of(surface: Surface) -> str:

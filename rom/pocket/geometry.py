@@ -12,7 +12,7 @@ from pydantic import (
     model_validator,
 )
 
-from roughfilm.contact.foundation.entries import Coordinate, Length, Part
+from roughfilm.contact.foundation.entries import Coordinate, Length, NamesFile, Part
 from roughfilm.rom.pocket import groove
 from roughfilm.rom.pocket.profile import Points, checked
 from roughfilm.rom.thin_film.gap import Gap
@@ -122,7 +122,9 @@ class Through(_Placed):
 
     profile: Literal["points"]
     interpolation: Literal["linear", "monotone"] = "linear"
-    points: Annotated[Points, BeforeValidator(checked), PlainSerializer(lambda points: [list(row) for row in points])]
+    points: Annotated[
+        Points, BeforeValidator(checked), PlainSerializer(lambda points: [list(row) for row in points]), NamesFile()
+    ]
 
     @property
     def span(self) -> tuple[float, float]:

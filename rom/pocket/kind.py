@@ -225,7 +225,6 @@ KIND = Kind(
     missing=missing,
     outside_laws=outside_laws,
     variants={LAWS_IN_PLAN: in_plan},
-    files=frozenset({"points"}),
     replaces={
         "motion.speed": ("reynolds_number",),
         "motion.reynolds_number": ("speed",),

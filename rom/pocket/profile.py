@@ -1,7 +1,6 @@
 """The measured profile of a groove: depth at points along the wall, as numbers or from a file."""
 
 from itertools import pairwise
-from pathlib import Path
 
 from roughfilm.rom.parts.columns_file import MAX_ROWS, number_pairs, read_rows
 
@@ -25,7 +24,7 @@ def checked(points: object) -> Points:
     """
     if isinstance(points, str):
         try:
-            return checked(read_rows(Path(points), COLUMNS, header=HEADER))
+            return checked(read_rows(points, COLUMNS, header=HEADER))
         except ValueError as error:
             raise ValueError(f"file {points!r:.200}: {error}") from error
     if not isinstance(points, list | tuple):

@@ -49,10 +49,11 @@ class RoughWall(SurfaceGeometry):
         if entries.get("surface") != SINUSOID:
             if wave:
                 raise ValueError(f'{wave[0]}: needs surface = "sinusoid"; leave it out, or set surface')
-        elif len(wave) < 2:
+            return entries
+        if len(wave) < 2:
             missing = "wavelength" if wave == ["amplitude"] else "amplitude"
             raise ValueError(f'{missing}: is missing; surface = "sinusoid" needs an amplitude and a wavelength')
-        return entries
+        return entries | {"surface": SINUSOID}  # a plain text, which is not the name of a file in the folder
 
     @model_validator(mode="after")
     def _is_periodic(self) -> Self:

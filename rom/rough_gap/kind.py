@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
-from roughfilm.rom.rough_gap.geometry import SINUSOID
+from roughfilm.rom.parts.surface_geometry import replaced_by
 from roughfilm.rom.rough_gap.scene import RoughGap
 
 MIN_FLOW = 1e-4
@@ -133,10 +133,8 @@ KIND = Kind(
     symbols=NUMBERS,
     excluded="cavitation, heat and deformation by the pressure of the liquid",
     omitted=omitted,
-    files=frozenset({"surface"}),
-    no_files=frozenset({SINUSOID}),
     replaces={
-        "geometry.surface": ("digest", "spacing", "amplitude", "wavelength"),
+        "geometry.surface": lambda surface: (*replaced_by(surface), "amplitude", "wavelength"),
         "flow.pressure_gradient": ("reynolds_number",),
         "flow.reynolds_number": ("pressure_gradient",),
     },

@@ -78,7 +78,6 @@ KIND = Kind(
     numbers=numbers,
     symbols={**dry_contact.NUMBERS, "length": "length/side"},
     excluded="inertia and deformation by the pressure of the liquid",
-    files=frozenset({"surface"}),
     replaces=dry_contact.KIND.replaces,
     lists=dry_contact.KIND.lists,
     sweeping=Sweeping(

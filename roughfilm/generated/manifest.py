@@ -2,7 +2,7 @@
 
 import hashlib
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,6 @@ from roughfilm.contact.foundation.files import write_json
 from roughfilm.contact.foundation.reading.json_entries import from_json
 from roughfilm.contact.foundation.reading.regular import opened, read_bytes
 from roughfilm.ladder import find
-from roughfilm.rom.ladder.kind import Scene, kind_of_name
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.rom.studies.study import Case, Study
@@ -164,19 +163,6 @@ def digest(path: Path) -> str:
             return hashlib.file_digest(file, "sha256").hexdigest()
     except InputError:
         return ""
-
-
-def named_files(scene: Scene, entries: Any) -> Iterator[tuple[dict[str, Any], str]]:
-    """Each table in the entries of a scene that names an existing file or one that is missing, with the key."""
-    kind = kind_of_name(scene.kind)
-    if isinstance(entries, dict):
-        for key, value in entries.items():
-            if key in kind.files and isinstance(value, str) and value not in kind.no_files:
-                yield entries, key
-            yield from named_files(scene, value)
-    elif isinstance(entries, list):
-        for value in entries:
-            yield from named_files(scene, value)
 
 
 def _with_copies(entries: Any, copies: Mapping[str, str], out: Path) -> Any:

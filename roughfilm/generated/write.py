@@ -21,7 +21,6 @@ from roughfilm.generated.manifest import (
     Manifest,
     digest,
     digests,
-    named_files,
     write_manifest,
 )
 from roughfilm.generated.scripts import ALL, ALL_TEXT, LIST, SLURM, slurm_text
@@ -30,7 +29,7 @@ from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.model import Availability, Model, Progress, silent
 from roughfilm.rom.ladder.provenance import model_code
 from roughfilm.rom.ladder.request import Request
-from roughfilm.rom.ladder.scene import load_entries, scene_entries
+from roughfilm.rom.ladder.scene import load_entries, named_files, scene_entries
 from roughfilm.rom.ladder.setting import Setting
 from roughfilm.rom.studies.study import Case, Study, load_study
 
@@ -197,13 +196,13 @@ def _copied_inputs(study: Study, out: Path) -> Mapping[str, str]:
     """The copies of all files that the scenes name, by the name in the scene."""
     copies: dict[str, str] = {}
     for case in study.cases:
-        for table, key in named_files(case.scene, scene_entries(case.scene)):
-            source = Path(table[key]).expanduser()
-            if table[key] not in copies and source.is_file():
+        for name in named_files(case.scene) - copies.keys():
+            source = Path(name).expanduser()
+            if source.is_file():
                 copy = f"{INPUTS}/{digest(source)[:16]}-{source.name}"
                 (out / INPUTS).mkdir(exist_ok=True)
                 shutil.copyfile(source, out / copy)
-                copies[table[key]] = copy
+                copies[name] = copy
     return copies
 
 

@@ -12,8 +12,6 @@ from roughfilm.contact.foundation.units import in_si
 from roughfilm.rom.ladder import scene as scenes
 from roughfilm.rom.ladder.kind import Scene, kind_of_name
 
-EXAMPLE = "geometry.depth=22.5um"
-
 
 def load_scene(path: str | os.PathLike[str], *, set: Mapping[str, object] | None = None) -> Scene:  # noqa: A002
     """Read a scene file (TOML) and change some of its entries.
@@ -131,16 +129,14 @@ def replace(scene: Scene, key: str | Mapping[str, object], value: object = ...) 
 
 def with_entries(scene: Scene, values: Mapping[str, object]) -> Scene:
     """The scene with new values at dotted keys; InputError if a key is unknown or a value is out of range."""
-    replaces = kind_of_name(checked_scene(scene).kind).replaces
+    kind = kind_of_name(checked_scene(scene).kind)
     entries = scenes.given_entries(scene)
     for key, value in values.items():
         if not isinstance(key, str) or "=" in key:
             raise InputError(f"key: got {key!r:.60}; give a dotted key such as 'geometry.depth'")
-        table = key.rpartition(".")[0]
-        for other in replaces.get(key, ()):
-            if (taken := f"{table}.{other}") in values:
+        for taken in set_entry(entries, f"{key}={_json(key, value)}", scenes.EXAMPLE, kind.replaced):
+            if taken in values:
                 raise InputError(f"{key}: takes the place of {taken}, which is set too; set one of them")
-        set_entry(entries, f"{key}={_json(key, value)}", EXAMPLE, replaces)
     return read_scene(_without_none(entries))
 
 

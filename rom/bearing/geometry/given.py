@@ -2,17 +2,17 @@
 
 from functools import lru_cache
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import Literal, Self
 
 import numpy as np
 import scipy
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.entries import Length
+from roughfilm.contact.foundation.entries import Length, ScenePath
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.reading.regular import file_size, opened
-from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.foundation.reading.regular import file_size
+from roughfilm.contact.surfaces.files import has_header, read_surface
 from roughfilm.rom.bearing.geometry.pad import Pad
 from roughfilm.rom.bearing.geometry.texture import pocketed
 from roughfilm.rom.cavitation.shape import CELLS_PER_FEATURE, Shape
@@ -33,7 +33,7 @@ class Given(Pad):
 
     shape: Literal["given"]
     width: Length
-    thickness: Annotated[str, Field(min_length=1)]
+    thickness: ScenePath
     digest: str | None = None
 
     @model_validator(mode="after")
@@ -79,9 +79,7 @@ class Given(Pad):
 @lru_cache(maxsize=4)
 def _above_minimum(name: str, _modified: int, _size: int) -> tuple[Array, str]:
     path = Path(name)
-    with opened(path, "name a file of film thickness") as file:
-        has_header = path.suffix.lower() == ".csv" and file.read(16).lstrip().startswith(b"#")
-    surface = read_surface(path, spacing=(1.0, 1.0), height_unit=None if has_header else "m")
+    surface = read_surface(path, spacing=(1.0, 1.0), height_unit=None if has_header(path) else "m")
     if surface.invalid.any():
         i, j = np.argwhere(surface.invalid)[0]
         raise InputError(f"{path}: has no number at x {i}, y {j}; fill the gap")

@@ -13,7 +13,7 @@ import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.entries import InUnit, Length, Part, plain_number
+from roughfilm.contact.foundation.entries import InUnit, Length, Part, ScenePath, plain_number
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.reading.regular import file_size
 from roughfilm.rom.parts.columns_file import read_columns
@@ -80,7 +80,7 @@ class OverTime(Part):
     Source: Fritsch and Carlson 1980, doi:10.1137/0717021, for the cubics.
     """
 
-    file: Annotated[str, Field(min_length=1)] | None = None
+    file: ScenePath | None = None
     digest: str | None = None
     time: Rows | None = None
     speed: tuple[Speed, ...] | None = None

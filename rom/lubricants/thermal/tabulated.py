@@ -2,14 +2,13 @@
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
-from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 from pydantic import BeforeValidator, Field, PlainSerializer, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.entries import InUnit, Part
+from roughfilm.contact.foundation.entries import InUnit, NamesFile, Part
 from roughfilm.contact.foundation.units import SiNumber, in_si, to_si, with_unit
 from roughfilm.rom.lubricants.thermal.law import AbsoluteLaw, Temperature, check_rising
 from roughfilm.rom.lubricants.thermal.viscosity import Point, check_points
@@ -36,7 +35,7 @@ def rows_of_file(columns: Mapping[str, str], header: str) -> Callable[[Any], Any
         if not isinstance(entries, str):
             return entries
         try:
-            return in_si(read_rows(Path(entries), columns, header=header))
+            return in_si(read_rows(entries, columns, header=header))
         except ValueError as error:
             raise ValueError(f"file {entries!r:.200}: {error}") from error
 
@@ -69,6 +68,7 @@ class TabulatedViscosity(AbsoluteLaw):
         BeforeValidator(
             rows_of_file({"temperature": "K", "viscosity": "Pa*s"}, "temperature (degC), viscosity (mPa*s)")
         ),
+        NamesFile(),
     ]
     valid_from: Temperature | None = None
     valid_to: Temperature | None = None
@@ -125,6 +125,7 @@ class HeatCapacity(Part):
                     {"temperature": "K", "heat_capacity": "J/(kg*K)"}, "temperature (degC), heat_capacity (J/kg/K)"
                 )
             ),
+            NamesFile(),
         ]
         | None
     ) = None
