@@ -6,6 +6,7 @@ import numpy as np
 
 from roughfilm.rom.cavitation.discretise import Ends
 from roughfilm.rom.cavitation.grid import grid
+from roughfilm.rom.cavitation.motion.closing import closed_cavities
 from roughfilm.rom.cavitation.motion.coupled import Drive, full_film, kinds, settled
 from roughfilm.rom.cavitation.motion.film import Inflow, MovingFilm
 from roughfilm.rom.cavitation.motion.march import Course, begun, march
@@ -110,14 +111,23 @@ def order(sizes, errors):
 
 
 def stored(film, before, after):
-    """∂(θh)/∂t over the whole film, m³/s, by backward Euler or the two-step formula, from the volumes at the times."""
-    volumes = [float((film.grid.areas * known.held).sum()) for known in after.past[:3]]
-    times = [known.time for known in after.past[:3]]
+    """∂(θh)/∂t over the whole film, m³/s, by backward Euler or the two-step formula, from the volumes at the times.
+
+    In a step of the two-step formula in which a cavity closes, what it lacks, (1 - θ) h, has backward Euler.
+    """
+    past = after.past[:3]
+    times, areas = [known.time for known in past], film.grid.areas
+    held = [known.held for known in past]
+    first = times[0] - times[1]
     if after.order == 1:
-        return (volumes[0] - volumes[1]) / (times[0] - times[1])
-    first, second = times[0] - times[1], times[0] - times[2]
+        return float((areas * (held[0] - held[1])).sum()) / first
     assert before.now.time == times[1]
-    return (
+    second = times[0] - times[2]
+    closed = closed_cavities(film, past[1:], after.instant)
+    lacking = [np.where(closed, film.gap_at(known.place) - known.held, 0.0) for known in past]
+    volumes = [float((areas * (one + lacks)).sum()) for one, lacks in zip(held, lacking, strict=True)]
+    taken_up = float((areas * (lacking[1] - lacking[0])).sum()) / first
+    return taken_up + (
         volumes[0] * (1 / first + 1 / second)
         - volumes[1] * second / (first * (second - first))
         + volumes[2] * first / (second * (second - first))

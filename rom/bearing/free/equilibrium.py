@@ -14,7 +14,7 @@ from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.cavitation.interpolation import carried
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
-from roughfilm.rom.cavitation.motion.march import held
+from roughfilm.rom.cavitation.motion.past import held
 from roughfilm.rom.cavitation.problem import unchanging
 
 FIRST_STEP = 0.2

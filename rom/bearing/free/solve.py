@@ -20,7 +20,7 @@ from roughfilm.rom.cavitation.fluid import ViscosityField
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
 from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
-from roughfilm.rom.cavitation.motion.march import held
+from roughfilm.rom.cavitation.motion.past import held
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.solve import FIRST_COARSENING, Level, Solution
 from roughfilm.rom.ladder.model import Progress, silent

@@ -21,7 +21,8 @@ from roughfilm.rom.bearing.moving.body import Body, Start
 from roughfilm.rom.bearing.moving.over_time import Curve
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
 from roughfilm.rom.cavitation.motion.coupled import Drive, settled
-from roughfilm.rom.cavitation.motion.march import Course, Moving, begun, held
+from roughfilm.rom.cavitation.motion.march import Course, Moving, begun
+from roughfilm.rom.cavitation.motion.past import held
 
 TURNS = 20
 """Turns of the shaft, or passages of the sliding wall, after which a march without a table ends."""

@@ -12,7 +12,8 @@ from roughfilm.rom.bearing.march.course import Duty, course_of, film_at, started
 from roughfilm.rom.bearing.march.heated import HeatedMarch
 from roughfilm.rom.bearing.march.numbers import Observer
 from roughfilm.rom.bearing.march.rough_walls import walls_of
-from roughfilm.rom.cavitation.motion.march import Known, Moving, march
+from roughfilm.rom.cavitation.motion.march import Moving, march
+from roughfilm.rom.cavitation.motion.past import Known
 from roughfilm.rom.cavitation.network import State
 
 CHUNK = 200

@@ -47,10 +47,8 @@ LEAST_FLOW = 1e-3
 """Smallest flow through a film, over the largest one through a face, to which the sum of all balances is related."""
 
 LEAST_PART = 1e-3
-"""Least size of the parts of the force on a coordinate over that on the whole film: pads may carry nothing.
-
-It is also so large that the round-off of pressures, such as that of a film at ambient pressure, balances.
-"""
+"""Least size of the parts of the force on a coordinate over that on the whole film: pads may carry nothing,
+and the round-off of pressures, such as that of a film at ambient pressure, balances."""
 
 COLUMNS_KEPT = 5
 """Largest number of steps for which the derivatives by the coordinates are kept, as they change little.
@@ -75,7 +73,7 @@ class Drive:
     force : f of the force f - S q on each coordinate besides that of the film, N (N m of an angle).
     stiffness : S, shape (coordinates, coordinates).
     free : whether each coordinate moves so that its forces balance; the others are given.
-    storage : a and s of ∂(θh)/∂t = a θh - s, 1/s and m/s, each a number or of the shape of the grid.
+    storage, of_gap : a and s, and b, of ∂(θh)/∂t = a θh + b h - s, each a number or of the shape of the grid.
     """
 
     speed: float
@@ -83,6 +81,7 @@ class Drive:
     stiffness: Array
     free: NDArray[np.bool_]
     storage: tuple[float | Array, float | Array] = (0.0, 0.0)
+    of_gap: float | Array = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -143,9 +142,10 @@ class Trial:
     def sample(self) -> Self:
         """Sample the film at the coordinates."""
         film, drive = self.film, self.drive
-        self.faces = film.faces(self.place)
-        self.contact = film.contact_at(self.place)
-        self.network = film.network(self.faces, self.pressures, speed=drive.speed, storage=drive.storage)
+        self.faces, self.contact = film.faces(self.place), film.contact_at(self.place)
+        self.network = film.network(
+            self.faces, self.pressures, speed=drive.speed, storage=drive.storage, of_gap=drive.of_gap
+        )
         return self
 
     def relax(self) -> None:

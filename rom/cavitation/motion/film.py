@@ -142,6 +142,11 @@ class MovingFilm:
         thickness = (part.reshape(shape) for part, shape in zip(parts, shapes, strict=True))
         return faces_of(thickness, self.shape(place), self.grid)
 
+    def gap_at(self, place: Array) -> Array:
+        """The mean gap at the nodes at coordinates q, m."""
+        rest, modes = self._beside
+        return self.gap(rest + modes @ place)
+
     def gap(self, thickness: Array) -> Array:
         """The mean gap at film thicknesses, m; where asperities are flattened it exceeds the separation."""
         return thickness if self.contact is None else self.contact.mean_gap(thickness)
@@ -161,10 +166,12 @@ class MovingFilm:
         *,
         speed: float,
         storage: tuple[float | Array, Array | float] | None = None,
+        of_gap: float | Array = 0.0,
     ) -> Network:
         """The network of the film, with the pressure of each inflow in the film, Pa above cavitation pressure.
 
-        ``speed`` and ``storage`` are those of :func:`roughfilm.rom.cavitation.discretise.network`.
+        ``speed`` and ``storage`` are those of :func:`roughfilm.rom.cavitation.discretise.network`, with the further
+        term of :class:`roughfilm.rom.cavitation.motion.coupled.Drive`.
         """
         net = network(
             self.grid,
@@ -177,8 +184,9 @@ class MovingFilm:
             ruptures=self.ruptures,
             viscosities=self.problem.at_nodes,
         )
-        if self.contact is not None and storage is not None:
-            net = replace(net, storage=self.grid.areas * self.gap(faces.thickness) * storage[0])
+        if storage is not None:
+            volumes = self.grid.areas * self.gap(faces.thickness)
+            net = replace(net, storage=volumes * storage[0], stored=net.stored - volumes * of_gap)
         if net.oblique is not None:
             raise InputError(
                 "roughness: got an averaged oblique lay for walls that move freely; take roughness along or across the "

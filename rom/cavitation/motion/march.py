@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.cavitation.balance import FILM
+from roughfilm.rom.cavitation.motion.closing import closed_cavities, closes_after, refilling
 from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, UnresistedError, settled, turned_round
 from roughfilm.rom.cavitation.motion.film import MovingFilm
+from roughfilm.rom.cavitation.motion.past import Known, differences, held, predicted, weights
 from roughfilm.rom.cavitation.motion.warming import UNKNOWN, Warming, expected, following
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 
@@ -20,6 +22,9 @@ MAX_GROWTH, MIN_GROWTH, SAFETY = 2.0, 0.2, 0.85
 
 EMPTY = -1e-9
 """Smallest filling fraction; a step of second order that drains a node further is repeated with first order."""
+
+CLOSING_STEP = 0.03
+"""Time step over the largest one across the closing of a cavity, where pressures jump."""
 
 MIN_STEP = 1e-9
 """Smallest time step over the largest one, below which the march stops."""
@@ -75,20 +80,6 @@ class Course:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Known:
-    """The coordinates, their velocities, θh at the nodes, m, and the temperature, K, at one time, s.
-
-    The temperature is not a number of a film without one.
-    """
-
-    time: float
-    place: Array
-    velocity: Array
-    held: Array
-    temperature: float = UNKNOWN
-
-
-@dataclass(frozen=True, kw_only=True)
 class Moving:
     """A film at one time of a march, from which the march can go on.
 
@@ -103,6 +94,7 @@ class Moving:
     turned : whether the wall slides towards decreasing x, so that the film is the mirrored one.
     solved_at : temperature whose viscosity the film has, K, as it was expected before the step.
     balanced : temperature T_eq that the heat of the film brings about, K.
+    closes_after : time from the beginning of the step to the closing of a cavity in it, s; infinite without one.
     """
 
     instant: Instant
@@ -114,17 +106,12 @@ class Moving:
     turned: bool = False
     solved_at: float = UNKNOWN
     balanced: float = UNKNOWN
+    closes_after: float = math.inf
 
     @property
     def now(self) -> Known:
         """What is known at this time."""
         return self.past[0]
-
-
-def held(film: MovingFilm, instant: Instant) -> Array:
-    """θh at the nodes, m."""
-    excess = film.problem.compression(instant.state.pressure)[0]
-    return np.asarray((instant.state.fill + excess) * film.gap(instant.faces.thickness))
 
 
 def begun(film: MovingFilm, instant: Instant, *, time: float = 0.0, velocity: Array | None = None) -> Moving:
@@ -190,6 +177,7 @@ def march(
     _check_times(start.now.time, end, largest_step, error)
     moving = start
     size = start.following or (largest_step if error is None else FIRST_STEP * largest_step)
+    shortest, cut = CLOSING_STEP * largest_step, False
     short = unresisted = 0
     while moving.now.time < end - ROUNDOFF * min(largest_step, end - start.now.time):
         left = end - moving.now.time
@@ -215,7 +203,10 @@ def march(
             if size < MIN_STEP * largest_step or unresisted > MAX_UNRESISTED:
                 raise _stopped(film.mirrored if moving.turned else film, course, moving, closest, following)
             continue
-        size *= ratio
+        if error is not None and not cut and following.closes_after < math.inf and size > shortest:
+            size, cut = min(max(following.closes_after, shortest), size), True
+            continue
+        size, cut = shortest if cut else ratio * size, False
         moving = replace(following, following=size)
         least = float(moving.instant.faces.thickness.min())
         if least < closest:
@@ -402,9 +393,13 @@ def _stepped(
         free=course.free,
         storage=(rate, volume),
     )
-    start = replace(moving.instant, place=guess)
+    start, closes = replace(moving.instant, place=guess), math.inf
     try:
         instant = settled(film, start, drive, tolerance=tolerance)
+        if order > 1 and (closed := closed_cavities(film, moving.past, instant)).any():
+            drive = refilling(film, moving.past, size, drive, closed)
+            instant = settled(film, instant, drive, tolerance=tolerance)
+            closes = closes_after(film, moving.past, instant, closed)
     except ConvergenceError as error:
         return error
     if order > 1 and instant.state.fill.min() < EMPTY:
@@ -423,6 +418,7 @@ def _stepped(
         order=order,
         error=_error(past, course, order, longest),
         turned=moving.turned,
+        closes_after=closes,
     )
 
 
@@ -430,47 +426,10 @@ def _warmed(warming: Warming, moving: Moving) -> Moving:
     """A film after a step, which was solved at an expected temperature, with its temperature."""
     now, *before = moving.past
     balanced = warming.balanced(now.time, moving.instant, now.velocity, moving.solved_at, turned=moving.turned)
-    rate, near, far = _weights(tuple(before), moving.step, moving.order)
+    rate, near, far = weights(tuple(before), moving.step, moving.order)
     memory = near * before[0].temperature - (far * before[1].temperature if far else 0.0)
     temperature = following(warming, balanced, moving.solved_at, rate, memory)
     return replace(moving, past=(replace(now, temperature=temperature), *before), balanced=balanced)
-
-
-def differences(past: tuple[Known, ...], size: float, order: int) -> tuple[float, tuple[Array, Array, Array]]:
-    """The rate a, 1/s, and s of ẋ = a x - s after a step, for the coordinates, their velocities and θh."""
-    rate, near, far = _weights(past, size, order)
-    last = past[0]
-    if order == 1:
-        return rate, (last.place / size, last.velocity / size, last.held / size)
-    before = past[1]
-    return rate, (
-        near * last.place - far * before.place,
-        near * last.velocity - far * before.velocity,
-        near * last.held - far * before.held,
-    )
-
-
-def _weights(past: tuple[Known, ...], size: float, order: int) -> tuple[float, float, float]:
-    """a, b and c of ẋ = a x₊ - b x + c x₋, 1/s, after a step; c is 0 of first order."""
-    if order == 1:
-        return 1 / size, 1 / size, 0.0
-    ratio = size / (past[0].time - past[1].time)
-    return (1 + 2 * ratio) / ((1 + ratio) * size), (1 + ratio) / size, ratio**2 / ((1 + ratio) * size)
-
-
-def predicted(past: tuple[Known, ...], size: float) -> Array:
-    """The coordinates after a step, extrapolated from up to three times; at first with the velocity."""
-    last = past[0]
-    if len(past) == 1:
-        return np.asarray(last.place + size * last.velocity)
-    before = past[1]
-    slope = (last.place - before.place) / (last.time - before.time)
-    place = last.place + size * slope
-    if len(past) > 2:
-        older = past[2]
-        bend = (slope - (before.place - older.place) / (before.time - older.time)) / (last.time - older.time)
-        place = place + size * (size + last.time - before.time) * bend
-    return np.asarray(place)
 
 
 def _guess(film: MovingFilm, course: Course, moving: Moving, given: Array, size: float) -> Array | None:

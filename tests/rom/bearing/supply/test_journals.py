@@ -13,7 +13,7 @@ from roughfilm.ladder import find
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import free_film
 from roughfilm.rom.cavitation.motion.coupled import Drive, settled
-from roughfilm.rom.cavitation.motion.march import held
+from roughfilm.rom.cavitation.motion.past import held
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 

@@ -8,7 +8,8 @@ from moving_films import CLEARANCE, SPEED, course, damping_of_slow_motions, jour
 
 from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
-from roughfilm.rom.cavitation.motion.march import begun, held, march
+from roughfilm.rom.cavitation.motion.march import begun, march
+from roughfilm.rom.cavitation.motion.past import held
 
 AMBIENT = 1e4
 
