@@ -136,14 +136,12 @@ def temperatures_of(scene: Bearing, film: FreeFilm, instant: Instant) -> Tempera
 
     Raises
     ------
-    InputError
-        If nothing takes the heat away.
+    ConvergenceError
+        If the heat belongs to no temperature.
     """
-    liquid, temperature = scene.lubricant.liquid, film.scene.lubricant.temperature
-    assert temperature is not None
-    solution = film.solution(instant)
+    liquid, solution = scene.lubricant.liquid, film.solution(instant)
     exchange = exchange_of(film.scene, solution, static_quantities(film, instant), liquid.temperature)
-    return temperatures(exchange, liquid, temperature)
+    return temperatures(exchange, liquid)
 
 
 def point_of(found: Equilibrium, ratio: float) -> GridPoint:

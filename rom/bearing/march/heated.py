@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.course import Duty, started
@@ -31,8 +30,7 @@ class HeatedMarch:
     T_eq is the temperature that friction, squeeze and flows of the instant bring about
     (:func:`roughfilm.rom.bearing.thermal.exchange.temperatures`). A film that takes up or gives off lubricant, as its
     walls move, takes it from the supply, or displaces lubricant that came from there. The heat that the lubricant in
-    the film stores is left out against that of the walls. Without a time constant T is T_eq at all times; with one it
-    stays while nothing takes the heat away, as in the first instant of a shaft in the middle of its bore.
+    the film stores is left out against that of the walls. Without a time constant T is T_eq at all times.
 
     Attributes
     ----------
@@ -73,11 +71,6 @@ class HeatedMarch:
         velocity : velocity of the wall along its coordinates, m/s.
         temperature : temperature of the lubricant of the film, K.
         turned : whether the speed is negative.
-
-        Raises
-        ------
-        InputError
-            If no lubricant takes the heat away, and there is no time constant.
         """
         seen = replace(self.observer, film=self.observer.film.reversed) if turned else self.observer
         scene, film = self.duty.scene, self.whole(temperature, turned=turned)
@@ -97,15 +90,7 @@ class HeatedMarch:
         power = seen.power(time, instant, velocity, temperature)
         quantities[f"power_loss{per}"] = Quantity(value=power, unit="W/m" if wide else "W")
         exchange = exchange_of(scene, solution, quantities, self.liquid.temperature)
-        if not (exchange.flows or exchange.conductance) and exchange.power > 0:
-            if self.time_constant:
-                return temperature
-            other = "a start away from the middle, body.start.eccentricity" if self.duty.lobes else "[[supply]]"
-            raise InputError(
-                f"heat.time_constant: is missing, and at the time {time:.6g} s no lubricant flows through the film and "
-                f"takes its heat away; give it, or {other}"
-            )
-        return temperatures(exchange, self.liquid, temperature).effective
+        return temperatures(exchange, self.liquid).effective
 
     def slope(self, balanced: float, temperature: float) -> float:
         """About dT_eq/dT where the film is at a temperature, K: that of a rise proportional to the viscosity."""

@@ -1,5 +1,6 @@
 """The heat that a film generates, and the lubricant and surroundings that take it away, for one temperature."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -21,8 +22,18 @@ from roughfilm.rom.temperature.dissipation import passed_on
 SMALL_FLOW = 1e-12
 """New lubricant over all lubricant that enters a film below which it carries no heat."""
 
-INVERSION_STEPS, INVERTED = 60, 1e-13
-"""Largest number of Newton's steps from a heat to its temperature, and relative change at which they end."""
+STEPS, SETTLED = 60, 1e-13
+"""Largest number of steps in which the temperature of the outflow is sought, and relative change at which they end."""
+
+IN_A_MACHINE = 300.0
+"""Heat transfer from a bearing to its surroundings over its nominal area where none is given, W/(m² K): by DIN 31652
+and ISO 7902-1 15 to 20 W/(m² K) over a surface of 15 to 20 times the nominal area, 225 to 400 W/(m² K)."""
+
+NEAR = 1e-3
+"""Difference of two temperatures below which the mean heat capacity between them is that at one of them, K."""
+
+SERIES_BELOW, TERMS = 0.5, 16
+"""Number of transfer units below which the mean of a profile is summed as a series, and the number of its terms."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,15 +45,17 @@ class Exchange:
     power : mechanical power that becomes heat, W: friction, squeeze, and what the supply pressure pumps.
     new : flows of lubricant that enters from outside, m³/s, each with its temperature, K.
     carried : flow of hot lubricant that enters the film again, m³/s.
-    conductance : heat transfer coefficient times area from the bearing to its surroundings, W/K.
+    conductance : heat transfer coefficient times area from the bearing to its surroundings, W/K; None if none is given.
     surroundings : temperature of the surroundings, K.
+    area : nominal area, m² (m if infinitely wide), by which the heat transfer is estimated where none is given.
     """
 
     power: float
     new: tuple[tuple[float, float], ...]
     carried: float
-    conductance: float
+    conductance: float | None
     surroundings: float
+    area: float
 
     @property
     def renewed(self) -> float:
@@ -61,10 +74,12 @@ class Temperatures:
 
     Attributes
     ----------
-    effective : temperature for which the heat is balanced, K: the mean of inlet and outlet.
+    effective : temperature for which the heat is balanced, K: the mean along the film from inlet to outlet.
     inlet : temperature of the mixture of new and recirculated lubricant at the inlet, K.
     outlet : temperature of the lubricant that leaves, K.
     to_lubricant, to_surroundings : heat that the lubricant takes away, and the surroundings, W.
+    estimated : heat transfer to the surroundings that is estimated as none is given, W/K; 0 where the flow takes away
+        more than this.
     """
 
     effective: float
@@ -72,77 +87,117 @@ class Temperatures:
     outlet: float
     to_lubricant: float
     to_surroundings: float
+    estimated: float = 0.0
 
 
-def temperatures(exchange: Exchange, liquid: Liquid, film: float) -> Temperatures:
-    """The temperatures that the heat of a film brings about whose lubricant has the viscosity at a temperature T.
+def temperatures(exchange: Exchange, liquid: Liquid) -> Temperatures:
+    """The temperatures that the heat of a film brings about, along which its power P and its heat transfer are uniform.
 
     With the heat e(T) = ∫ ρ c dT of a volume, new lubricant Q_k at T_k and the recirculated flow Q_r, which leaves and
-    enters again,
+    enters again, the whole flow Q = Σ Q_k + Q_r has along the film, s = 0 to 1,
 
-        Σ Q_k (e(T_out) - e(T_k)) = P - α A (T - T_a),    (Σ Q_k + Q_r) e(T_in) = Σ Q_k e(T_k) + Q_r e(T_out),
+        Q de/ds = P - G (T - T_a),    Q e(T_in) = Σ Q_k e(T_k) + Q_r e(T_out),
 
-    and the temperature of the film is (T_in + T_out)/2. Without new lubricant the heat goes to the surroundings alone,
-    and the temperature is T_a + P/(α A); without any heat it is that of the supply. The heat is balanced if the result
-    equals T.
+    where G is the heat transfer coefficient times the area. With the mean heat capacity C of the flow from inlet to
+    outlet and N = G/C transfer units, the profile is an exponential towards T_a + P/G:
+
+        T_out = T_in + δ (1 - exp(-N))/N,    T_e = T_in + δ (1 - (1 - exp(-N))/N)/N,    δ = (P - G (T_in - T_a))/C.
+
+    Its mean T_e is the temperature of the film, and G (T_e - T_a) leaves to the surroundings. Nothing leaves colder
+    than both what enters and the surroundings. Without heat transfer T_e = (T_in + T_out)/2, and without new lubricant
+    T_e = T_a + P/G.
+
+    Where no heat transfer is given, none is counted as long as the flow of new lubricant can take away as much heat a
+    kelvin as a bearing gives off to still air; a smaller flow takes away what it can, and the bearing the rest of that:
+    G = max(``IN_A_MACHINE`` times the nominal area - ρ c Σ Q_k, 0).
 
     Parameters
     ----------
     exchange : power and flows of the film.
     liquid : its lubricant over temperature.
-    film : temperature T at which the film was solved, K.
 
     Raises
     ------
-    InputError
-        If neither flows nor the surroundings take the heat away.
     ConvergenceError
         If the heat belongs to no temperature.
 
-    Source: DIN 31652-1 and ISO 7902-1, for the mean of inlet and outlet and the heat transfer to the surroundings.
+    Source: DIN 31652-1 and ISO 7902-1, for one temperature of the film and the heat transfer to the surroundings.
     """
-    to_surroundings = exchange.conductance * (film - exchange.surroundings)
+    conductance, estimated = exchange.conductance, 0.0
+    if conductance is None:
+        capacity = float(liquid.heat(np.array([liquid.temperature]))[1][0]) * exchange.renewed
+        conductance = estimated = max(IN_A_MACHINE * exchange.area - capacity, 0.0)
     if not exchange.flows:
-        if exchange.conductance == 0 == exchange.power:
-            cold = liquid.temperature
-            return Temperatures(effective=cold, inlet=cold, outlet=cold, to_lubricant=0.0, to_surroundings=0.0)
-        if exchange.conductance == 0:
-            raise InputError(
-                "heat: no lubricant flows through the film and takes its heat away; give [heat] heat_transfer and "
-                "area, or sides, an inlet or [[supply]] through which lubricant flows"
-            )
-        only = exchange.surroundings + exchange.power / exchange.conductance
-        return Temperatures(effective=only, inlet=only, outlet=only, to_lubricant=0.0, to_surroundings=exchange.power)
-    entering = sum(flow * _heat(liquid, temperature) for flow, temperature in exchange.new)
-    to_lubricant = exchange.power - to_surroundings
-    out = (entering + to_lubricant) / exchange.renewed
-    mixed = (entering + exchange.carried * out) / (exchange.renewed + exchange.carried)
-    outlet, inlet = _temperature(liquid, out), _temperature(liquid, mixed)
+        only = exchange.surroundings + exchange.power / conductance
+        return Temperatures(
+            effective=only,
+            inlet=only,
+            outlet=only,
+            to_lubricant=0.0,
+            to_surroundings=exchange.power,
+            estimated=estimated,
+        )
+    inlet, outlet, effective = _along(exchange, liquid, conductance)
+    to_surroundings = conductance * (effective - exchange.surroundings)
     return Temperatures(
-        effective=(inlet + outlet) / 2,
+        effective=effective,
         inlet=inlet,
         outlet=outlet,
-        to_lubricant=to_lubricant,
+        to_lubricant=exchange.power - to_surroundings,
         to_surroundings=to_surroundings,
+        estimated=estimated,
     )
+
+
+def _along(exchange: Exchange, liquid: Liquid, conductance: float) -> tuple[float, float, float]:
+    """The temperatures at the inlet and the outlet and their mean along the film, K.
+
+    The outlet is that of the profile, or with few transfer units the one of the whole balance, P - G (T_e - T_a) -
+    Σ Q_k (e(T_out) - e(T_k)) = 0, which keeps its digits where nearly all lubricant recirculates.
+    """
+    whole = exchange.renewed + exchange.carried
+    new = sum(flow * _heat(liquid, temperature) for flow, temperature in exchange.new) / exchange.renewed
+    again = exchange.carried / whole
+    outlet = float(liquid.temperature_of(np.array([new]))[0])
+    for _ in range(STEPS):
+        leaving, slope = (float(one[0]) for one in liquid.heat(np.array([outlet])))
+        mixed = new + again * (leaving - new)
+        inlet = float(liquid.temperature_of(np.array([mixed]))[0])
+        apart = outlet - inlet
+        capacity = whole * ((leaving - mixed) / apart if abs(apart) > NEAR else slope)
+        units = conductance / capacity
+        rise = (exchange.power - conductance * (inlet - exchange.surroundings)) / capacity
+        effective = inlet + rise * _mean_rise(units)
+        if units > 1:
+            step = (rise * _mean_decay(units) - apart) / (1 - again * math.exp(-units))
+        else:
+            balance = exchange.power - conductance * (effective - exchange.surroundings)
+            balance -= exchange.renewed * (leaving - new)
+            step = balance / (exchange.renewed * slope + conductance * again * _mean_decay(units))
+        outlet += step
+        if not abs(outlet) < math.inf:
+            break
+        if abs(step) <= SETTLED * abs(outlet):
+            return inlet, outlet, effective
+    raise ConvergenceError(
+        f"heat: {exchange.power:.4g} W belongs to no temperature of the lubricant; check lubricant.heat_capacity"
+    )
+
+
+def _mean_decay(units: float) -> float:
+    """The mean (1 - exp(-N))/N of exp(-N s) over s from 0 to 1."""
+    return -math.expm1(-units) / units if units > 0 else 1.0
+
+
+def _mean_rise(units: float) -> float:
+    """The mean (1 - (1 - exp(-N))/N)/N of (1 - exp(-N s))/N over s from 0 to 1, without loss of digits."""
+    if units >= SERIES_BELOW:
+        return (1 - _mean_decay(units)) / units
+    return sum((-units) ** power / math.factorial(power + 2) for power in range(TERMS))
 
 
 def _heat(liquid: Liquid, temperature: float) -> float:
     return float(liquid.heat(np.array([temperature]))[0][0])
-
-
-def _temperature(liquid: Liquid, heat: float) -> float:
-    """The temperature, K, at which a volume has a heat above that of the supplied liquid, J/m³."""
-    temperature = liquid.temperature
-    for _ in range(INVERSION_STEPS):
-        content, slope = (float(values[0]) for values in liquid.heat(np.array([temperature])))
-        step = (heat - content) / slope
-        temperature += step
-        if abs(step) <= INVERTED * abs(temperature):
-            return temperature
-    raise ConvergenceError(
-        f"heat: {heat:.4g} J/m^3 belongs to no temperature of the lubricant; check lubricant.heat_capacity"
-    )
 
 
 def exchange_of(
@@ -213,13 +268,13 @@ def exchange_of(
     for number, (amount, supply) in enumerate(zip(supplied, scene.supply, strict=True), start=1):
         pressure = quantities[f"supply_{number}_pressure"].value if supply.pressure is None else supply.pressure
         pumped += pressure * amount
-    conductance = _conductance(scene, heat)
     return Exchange(
         power=quantities["power_loss_per_width" if wide else "power_loss"].value + _squeeze(scene, solution) + pumped,
         new=tuple((amount, temperature) for amount, temperature in new if amount > 0),
         carried=carried,
-        conductance=conductance,
+        conductance=_conductance(scene, heat),
         surroundings=supply_temperature if heat.surroundings is None else heat.surroundings,
+        area=scene.nominal_area,
     )
 
 
@@ -246,10 +301,10 @@ def _squeeze(scene: Bearing, solution: Solution) -> float:
     return -float((grid.areas * pressure * rate).sum())
 
 
-def _conductance(scene: Bearing, heat: Heat) -> float:
-    """The heat transfer coefficient times the area of one piece of the bearing, W/K."""
+def _conductance(scene: Bearing, heat: Heat) -> float | None:
+    """The heat transfer coefficient times the area of one piece of the bearing, W/K; None if they are not given."""
     if heat.heat_transfer is None or heat.area is None:
-        return 0.0
+        return None
     if scene.wide or scene.pieces is None:
         what = "an infinitely wide bearing" if scene.wide else "pads of an unknown number"
         remedy = "geometry.width" if scene.wide else "geometry.pads"

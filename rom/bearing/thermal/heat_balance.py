@@ -16,6 +16,7 @@ from roughfilm.rom.bearing.solve import solve
 from roughfilm.rom.bearing.thermal.balanced import balanced
 from roughfilm.rom.bearing.thermal.exchange import Exchange, Temperatures, coldest, exchange_of, temperatures
 from roughfilm.rom.bearing.thermal.isothermal import isothermal_model
+from roughfilm.rom.bearing.thermal.leading import leading_input
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.request import CheckedRequest
@@ -79,23 +80,36 @@ class Heated:
     liquid : the lubricant over temperature.
     temperature : temperature T of the film, K.
     sensitivity : changes with T.
+    in_still_air : whether the heat transfer to the surroundings is estimated, as none is given.
     """
 
     base: Outputs
     liquid: Liquid
     temperature: float
     sensitivity: Sensitivity = INSENSITIVE
+    in_still_air: bool = False
 
     @property
     def outputs(self) -> Outputs:
         """The functions that evaluate the film."""
-        return replace(self.base, quantities=self.quantities, factor_uncertainties=self.factor_uncertainties)
+        return replace(
+            self.base,
+            quantities=self.quantities,
+            factor_uncertainties=self.factor_uncertainties,
+            iteration_uncertainties=self.transfer_uncertainties,
+            warnings=self.warnings,
+        )
+
+    def warnings(self, scene: Bearing, solution: Solution) -> list[str]:
+        """The warnings of the isothermal model, and the input on which the temperature depends most."""
+        leading = leading_input(scene, solution, self.base.quantities(scene, solution), self.liquid, self.temperature)
+        return [*self.base.warnings(scene, solution), *leading]
 
     def quantities(self, scene: Bearing, solution: Solution) -> dict[str, Quantity]:
         """The quantities of the isothermal model, its temperatures and heat flows."""
         quantities = self.base.quantities(scene, solution)
         exchange = exchange_of(scene, solution, quantities, self.liquid.temperature)
-        found = temperatures(exchange, self.liquid, self.temperature)
+        found = temperatures(exchange, self.liquid)
         quantities |= heat_quantities(exchange, found, wide=solution.problem.shape.wide)
         step = (found.effective - self.temperature) / (1 - self.sensitivity.slope)
         changes = {**self.sensitivity.changes, EFFECTIVE: 0.0}
@@ -128,6 +142,20 @@ class Heated:
         }
         extra = {**hot, **generated, EFFECTIVE: shift}
         return {name: value + extra.get(name, 0.0) for name, value in uncertainties.items()}
+
+    def transfer_uncertainties(
+        self, _levels: Sequence[Solution], quantities: Mapping[str, Quantity]
+    ) -> dict[str, float]:
+        """The uncertainties by a heat transfer to the surroundings that is estimated: half or twice as much heat."""
+        per = "" if "heat_generated" in quantities else "_per_width"
+        generated, off = (quantities[f"{name}{per}"].value for name in ("heat_generated", "heat_to_surroundings"))
+        if not self.in_still_air or not off:
+            return {}
+        shift = abs(off / generated * (self.temperature - self.liquid.temperature))
+        changes = self.sensitivity.changes
+        balanced = shift / (1 - self.sensitivity.slope)
+        uncertainties = {name: abs(changes.get(name, 0.0)) * balanced for name in quantities}
+        return uncertainties | {EFFECTIVE: balanced, "inlet_temperature": shift, "outlet_temperature": shift}
 
 
 def heat_quantities(exchange: Exchange, found: Temperatures, *, wide: bool) -> dict[str, Quantity]:
@@ -181,7 +209,13 @@ def solve_heat_balance(solver: Model[Bearing], scene: Bearing, request: CheckedR
     def film(temperature: float, cells: int, sensitivity: Sensitivity = INSENSITIVE) -> Result:
         model = isothermal_model(scene)
         outputs = model.outputs if cells == request.resolution else model.outputs.searched
-        heated = Heated(base=outputs, liquid=liquid, temperature=temperature, sensitivity=sensitivity)
+        heated = Heated(
+            base=outputs,
+            liquid=liquid,
+            temperature=temperature,
+            sensitivity=sensitivity,
+            in_still_air=scene.heat is None or scene.heat.heat_transfer is None,
+        )
         hot = scene.at_temperature(temperature)
         return solve(
             solver,

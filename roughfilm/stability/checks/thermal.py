@@ -126,5 +126,8 @@ def broken_totals(result: Result) -> Iterator[str]:
     if error > BALANCE:
         yield f"the heat of the film has an error of {error:.2g}"
     inlet, outlet = value["inlet_temperature"], value["outlet_temperature"]
-    if abs(value["effective_temperature"] - (inlet + outlet) / 2) > result.numerics.details["heat_balance"] + 1e-3:
+    effective, slack = value["effective_temperature"], result.numerics.details["heat_balance"] + 1e-3
+    if not min(inlet, outlet) - slack <= effective <= max(inlet, outlet) + slack:
+        yield "the temperature of the film is not between those of inlet and outlet"
+    if value["heat_to_surroundings"] == 0 and abs(effective - (inlet + outlet) / 2) > slack:
         yield "the temperature of the film is not the mean of inlet and outlet"

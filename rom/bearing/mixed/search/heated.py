@@ -80,7 +80,7 @@ class HeatedSearch:
 
         def equilibrium(temperature: float) -> float:
             search = self.at(temperature)
-            state = heated_state(film(search), self.scene, temperature)
+            state = heated_state(film(search), self.scene)
             last[:] = [(state, search)]
             assert state.temperatures is not None
             return state.temperatures.effective
@@ -114,7 +114,7 @@ class HeatedSearch:
             found[:] = [search.lift_off(pressure, found[0] if math.isfinite(found[0]) else near)]
             if not 0 < found[0] < math.inf:
                 return temperature
-            state = heated_state(search.again(found[0], pressure, self.asperities.touching), self.scene, temperature)
+            state = heated_state(search.again(found[0], pressure, self.asperities.touching), self.scene)
             assert state.temperatures is not None
             return state.temperatures.effective
 
@@ -130,8 +130,8 @@ class HeatedSearch:
         return replace(self, isothermal=self.isothermal.coarser(), _known=dict(self._known), _last={})
 
 
-def heated_state(state: MixedState, scene: Bearing, temperature: float) -> MixedState:
-    """The film whose lubricant is at a temperature, K, with the temperatures that its heat brings about.
+def heated_state(state: MixedState, scene: Bearing) -> MixedState:
+    """The film with the temperatures that its heat brings about.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def heated_state(state: MixedState, scene: Bearing, temperature: float) -> Mixed
     liquid = scene.lubricant.liquid
     quantities = bearing_quantities(state.scene, state.solution, state.contact.force)
     exchange = exchange_of(state.scene, state.solution, quantities, liquid.temperature)
-    return replace(state, temperatures=temperatures(exchange, liquid, temperature))
+    return replace(state, temperatures=temperatures(exchange, liquid))
 
 
 def with_temperature(search: Search) -> Search:

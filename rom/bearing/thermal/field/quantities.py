@@ -15,6 +15,7 @@ from roughfilm.rom.bearing.thermal.field.films import HeatedSolution
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.field.hot_spots import circulating_uncertainty, keeps_its_heat
 from roughfilm.rom.bearing.thermal.field.residual import iteration
+from roughfilm.rom.bearing.thermal.leading import leading_input
 from roughfilm.rom.bearing.uncertainty import HOTTEST_PLACE
 from roughfilm.rom.cavitation.grid import film_areas
 from roughfilm.rom.cavitation.solve import Solution
@@ -124,7 +125,12 @@ class HeatedOutputs:
         temperature = self.heated(solution).temperature
         beyond = scene.lubricant.temperature_warnings(float(temperature.min()), float(temperature.max()))
         unsettled = apart if changes[-1] > FIELD_TOLERANCE else []
-        scene = with_friction(scene, self.heated(solution).friction)
+        found = self.heated(solution)
+        scene = with_friction(scene, found.friction)
+        if not (found.to_fixed_wall or found.to_sliding_wall):
+            mean = float(temperature.mean())
+            plain, liquid = self.base.quantities(scene, solution), scene.lubricant.liquid
+            unsettled = [*unsettled, *leading_input(scene, solution, plain, liquid, mean, insulated=True)]
         circulates = isinstance(solution, HeatedSolution) and keeps_its_heat(solution)
         return [*self.base.warnings(scene, solution), *beyond, *unsettled, *([CIRCULATES] if circulates else [])]
 

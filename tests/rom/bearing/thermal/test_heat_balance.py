@@ -116,6 +116,11 @@ def test_energy_leaves_as_it_comes_in(case):
     assert left + off == pytest.approx(generated, rel=1e-8)
     assert found[f"heat_to_lubricant{per}"] + off == pytest.approx(generated, rel=1e-12)
     middle = (found["inlet_temperature"] + found["outlet_temperature"]) / 2
+    if case.get("heat") is COOLED:
+        # The exponential of a stream that exchanges heat: its mean over its length is that over its logarithm.
+        final = 20.0 + generated / 20.0
+        first, last = found["inlet_temperature"] - final, found["outlet_temperature"] - final
+        middle = final + (first - last) / math.log(first / last)
     assert found["effective_temperature"] == pytest.approx(middle, abs=1e-5)
     pumped = (
         0.0
@@ -325,10 +330,25 @@ def test_a_temperature_outside_of_the_range_of_its_law_has_a_warning():
     assert not [one for one in solved(WEDGE).warnings if one.startswith("temperature: ")]
 
 
-def test_heat_that_nothing_takes_away_is_refused():
+def test_a_film_without_flow_is_cooled_as_a_bearing_in_still_air_and_says_so():
+    """Petroff's friction goes to the surroundings by 300 W/(m² K) over diameter times width: a Lambert function."""
     still = {"sides": {"low": "0.1 MPa", "high": "0.1 MPa"}}
-    with pytest.raises(InputError, match=r"^heat: no lubricant flows .* heat_transfer and area[^\n]*$"):
-        solved(BORE | {"eccentricity": [0.0, 0.0]}, boundary=still)
+    result = solved(BORE | {"eccentricity": [0.0, 0.0]}, boundary=still)
+    rise = 2 * math.pi * ETA * 5.0**2 * 25e-3 * 40e-3 / 30e-6 / (300.0 * 50e-3 * 40e-3)
+    exact = lambertw(BETA * rise).real / BETA
+    temperature = result["effective_temperature"]
+    assert temperature.value == pytest.approx(COLD + exact, abs=2e-5)
+    assert temperature.uncertainty > 0.3 * exact
+    assert [one for one in result.warnings if "heat.heat_transfer and heat.area" in one]
+
+
+def test_a_slow_journal_in_cool_air_leaves_no_lubricant_colder_than_the_air():
+    air = {"heat_transfer": "20 W/(m^2*K)", "area": "0.1 m^2", "surroundings": "20 degC"}
+    oil = {"temperature": "60 degC"}
+    found = values(solved(JOURNAL, speed="0.026 m/s", load={"force": "1 kN"}, oil=oil, heat=air))
+    power, conductance = found["heat_generated"], 2.0
+    assert 20 <= found["outlet_temperature"] <= 60
+    assert 20 <= found["effective_temperature"] < 20 + power / conductance + 5
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,101 @@
+"""The input on which the temperature of a film depends most."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from roughfilm.contact.foundation.rounding import share
+from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.exchange import IN_A_MACHINE, Exchange, Temperatures, exchange_of, temperatures
+from roughfilm.rom.bearing.thermal.tables import Heat
+from roughfilm.rom.cavitation.solve import Solution
+from roughfilm.rom.lubricants.liquid import Liquid
+
+WARMER_SUPPLY = 5.0
+"""Change of the temperature of the supplied lubricant whose effect is compared with those of other inputs, K."""
+
+NOTABLE = 0.2
+"""Relative change of the viscosity by one input from which on it is named."""
+
+STILL_AIR = f"{IN_A_MACHINE:g} W/(m² K) over the nominal area, as of a bearing in still air (DIN 31652)"
+
+
+def leading_input(
+    scene: Bearing,
+    solution: Solution,
+    quantities: Mapping[str, Quantity],
+    liquid: Liquid,
+    temperature: float,
+    *,
+    insulated: bool = False,
+) -> tuple[str, ...]:
+    """The input on which the temperature depends most, with the changes of temperature and viscosity; () if small.
+
+    The inputs are the temperature of the supply, 5 K warmer, half of ``heat.carried_over``, and half of the heat
+    transfer to the surroundings or, where it is missing, that of a bearing in still air. Each changes the temperature
+    that the heat of the given film brings about; as the friction follows the viscosity, the film at which the heat is
+    balanced changes by that over 1 + |d ln η/dT| (T - T_supply). Where the bearing gives off heat whose transfer is not
+    given, this input is named.
+
+    Parameters
+    ----------
+    scene : the bearing at its film.
+    solution, quantities : the film, with its flows and its power.
+    liquid : the lubricant as it is supplied.
+    temperature : temperature of the film, K.
+    insulated : whether the model takes walls that take no heat, also where the flow takes away little.
+    """
+    exchange = exchange_of(scene, solution, quantities, liquid.temperature)
+    found = temperatures(exchange, liquid)
+    if found.estimated:
+        capacity = float(liquid.heat(np.array([liquid.temperature]))[1][0]) * exchange.renewed
+        unit = "W/(m K)" if scene.wide else "W/K"
+        little = f"the flow of new lubricant takes away {capacity:.2g} {unit}"
+        still = f"{STILL_AIR}, {IN_A_MACHINE * exchange.area:.2g} {unit}"
+        if insulated:
+            return (f"temperature: {little}, less than {still}, but the walls take no heat; take heat_balance",)
+        return (
+            f"temperature: it depends most on heat.heat_transfer and heat.area, which are missing: {little} only, so "
+            f"that the bearing gives off {still}; the uncertainty contains a factor of two of it",
+        )
+    viscosity, slope = (float(one[0]) for one in liquid.viscosity(np.array([temperature])))
+    sensitivity = -slope / viscosity
+    follows = 1 + max(sensitivity * (temperature - liquid.temperature), 0.0)
+    changes = {
+        words: (temperatures(other, liquid).effective - found.effective) / follows
+        for words, other in _varied(scene, solution, quantities, liquid, exchange, found)
+    }
+    words, change = max(changes.items(), key=lambda pair: abs(pair[1]))
+    thicker = float(np.expm1(-sensitivity * change))
+    if abs(thicker) < NOTABLE:
+        return ()
+    direction = "colder" if change < 0 else "warmer"
+    lubricant = f"{share(abs(thicker))} {'more' if thicker > 0 else 'less'} viscous"
+    return (f"temperature: it depends most on {words}, the film is about {abs(change):.2g} K {direction}, {lubricant}",)
+
+
+def _varied(
+    scene: Bearing,
+    solution: Solution,
+    quantities: Mapping[str, Quantity],
+    liquid: Liquid,
+    exchange: Exchange,
+    found: Temperatures,
+) -> Iterator[tuple[str, Exchange]]:
+    """The exchange of heat with one input changed, and that input in words."""
+    warmer = tuple((flow, temperature + WARMER_SUPPLY) for flow, temperature in exchange.new)
+    around = exchange.surroundings + (WARMER_SUPPLY if scene.heat is None or scene.heat.surroundings is None else 0.0)
+    key = "lubricant.temperature" if not scene.supply else "the temperature of the supply"
+    yield f"{key}: {WARMER_SUPPLY:g} K warmer", replace(exchange, new=warmer, surroundings=around)
+    heat = scene.heat or Heat()
+    if exchange.carried and heat.carried_over:
+        half = heat.model_copy(update={"carried_over": heat.carried_over / 2})
+        other = exchange_of(scene.model_copy(update={"heat": half}), solution, quantities, liquid.temperature)
+        yield f"heat.carried_over: with {half.carried_over:g} in place of {heat.carried_over:g}", other
+    if exchange.conductance is None:
+        missing = f"heat.heat_transfer and heat.area, which are missing: with {STILL_AIR}"
+        yield missing, replace(exchange, conductance=IN_A_MACHINE * exchange.area)
+    elif found.to_surroundings:
+        yield "heat.heat_transfer: with half of it", replace(exchange, conductance=exchange.conductance / 2)
