@@ -52,7 +52,7 @@ COMMAND = re.compile(r"^\$ (?P<line>(?:.*\\\n)*.*)\n(?P<printed>(?:(?!\$ ).*\n)*
 VARYING = re.compile(r"\b\d[\d.e+-]*(?=\s+(?:(?:CPU\s+)?(?:s|ms|min|h)|iterations)\b)")
 """Times and numbers of iterations."""
 
-ONE_TIME = re.compile(r"\s*\(\+ [^)]*\)")
+ONE_TIME = re.compile(r"\s*\(\+\s[^)]*\)")
 """Times of what is done once, such as compiling or loading kernels; it depends on what ran before."""
 
 RULE = re.compile("─+")
@@ -60,8 +60,8 @@ RULE = re.compile("─+")
 
 RESIDUAL = re.compile(r"(?<=residual )\d[\d.e+-]*")
 NUMBER = re.compile(r"(?<![A-Za-z_\d.])[−-]?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")
-TIMES = "CPU s"
-"""Title of a column of times in a table; it ends where the times end."""
+TIMES = re.compile(r"(?<=\S) {2,}CPU s(?= {2,}|$)")
+"""Title of a column of times in a table, beside another title; it ends where the times end."""
 
 ANY = "…"
 
@@ -69,14 +69,13 @@ ANY = "…"
 def _masked(text: str) -> str:
     """The text without times, residuals and numbers of iterations."""
     lines, ends = [], set[int]()
-    for line in text.splitlines():
-        if TIMES in line and not VARYING.search(line):
-            ends = {found.end() for found in re.finditer(TIMES, line)}
-        elif not line.strip():
-            ends = set()
+    for line in ONE_TIME.sub("", text).splitlines():
+        titles = {found.end() for found in TIMES.finditer(line)}
+        if titles or not line.strip():
+            ends = titles
         kept = [" " * len(word[0]) if word.end() in ends else word[0] for word in re.finditer(r"\S+|\s+", line)]
-        lines.append("".join(kept) if ends and TIMES not in line else line)
-    varying = [(RULE, "─"), (ONE_TIME, ""), (VARYING, ""), (RESIDUAL, "")]
+        lines.append(line if titles else "".join(kept))
+    varying = [(RULE, "─"), (VARYING, ""), (RESIDUAL, "")]
     return functools.reduce(lambda kept, rule: rule[0].sub(rule[1], kept), varying, "\n".join(lines))
 
 
@@ -170,6 +169,8 @@ def test_pages_show_what_is_printed(page: Path, tmp_path: Path, monkeypatch: pyt
         ("890 ± 30", "886 ± 28", True),
         ("load 1; 0.02 CPU s", "load 1; 3\n  CPU s", True),
         ("load 1; 2 CPU s (+ 1 s to load\n kernels)", "load 1; 2 CPU s", True),
+        ("load 1; 2 CPU s", "load 1; 2 CPU s (+\n  0.519 s to load the program)", True),
+        ("a 1; 2 CPU s;\nbees 12 um", "a 1; 2\nCPU s (+ 0.519 s to load the\nprogram);\nbees 12 um", True),
         ("residual 2e-16, 37\n iterations", "residual 7e-12, 45 iterations", True),
         ("model  CPU s  error\nfilm    0.02    1 %", "model  CPU s  error\nfilm     1.5    1 %", True),
         ("model  CPU s  error\nfilm    0.02    1 %", "model  CPU s  error\nfilm     1.5    3 %", False),

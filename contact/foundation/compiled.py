@@ -19,6 +19,10 @@ COMPILATION_S = "10 to 30"
 """Usual times in which the loops of a scene are compiled, s."""
 
 
+_starting = partial(one_time, "start", time.thread_time)
+"""Count the CPU time of importing numba, and of reading compiled loops from the disk, as a one-time cost."""
+
+
 class Loop:
     """A function that numba compiles, or reads from its cache, at its first call.
 
@@ -46,11 +50,13 @@ class Loop:
         for name in self._loop.__code__.co_names:
             if isinstance(called := names.get(name), Loop):
                 names[name] = called._dispatcher
-        try:
-            dispatcher = _njit()(**self._options)(self._loop)
-        except RuntimeError:  # no directory for the cache can be written
-            return _njit()(**{**self._options, "cache": False})(self._loop)
-        dispatcher._cache.save_overload = partial(_keep, dispatcher._cache.save_overload)
+        with _starting():
+            try:
+                dispatcher = _njit()(**self._options)(self._loop)
+            except RuntimeError:  # no directory for the cache can be written
+                return _njit()(**{**self._options, "cache": False})(self._loop)
+            dispatcher._cache.save_overload = partial(_keep, dispatcher._cache.save_overload)
+            dispatcher._cache.load_overload = _starting()(dispatcher._cache.load_overload)
         return dispatcher
 
 

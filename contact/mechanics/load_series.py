@@ -1,7 +1,6 @@
 """Contacts at increasing loads, each started from the one before; loads that the file holds are not solved again."""
 
 import math
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,6 +10,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.timing import imports_apart, working_time
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.discretisation import uncertainties
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
@@ -67,6 +67,7 @@ class ContactSeries:
     untrusted: tuple[float, ...] = ()
 
 
+@imports_apart()
 def solved(
     at: Solver,
     inputs: Inputs,
@@ -110,9 +111,9 @@ def solved(
             else:
                 if before is None and out is not None and done:
                     before = load_contact(out, loads[done - 1])
-                cpu = time.process_time()
+                cpu = working_time()
                 before = _at(at, load, before)
-                row = row_of(before, time.process_time() - cpu)
+                row = row_of(before, working_time() - cpu)
                 if out is not None:
                     add(out, inputs, [(row, before)])
             rows.append(row)

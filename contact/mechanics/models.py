@@ -1,7 +1,6 @@
 """Models of a dry contact, which solve it on the grid or estimate it from statistics of the heights."""
 
 import math
-import time
 from collections.abc import Callable
 from enum import StrEnum
 from functools import partial
@@ -11,6 +10,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.timing import imports_apart, working_time
 from roughfilm.contact.mechanics.estimates.estimate import Estimate
 from roughfilm.contact.mechanics.estimates.greenwood_williamson import greenwood_williamson
 from roughfilm.contact.mechanics.estimates.persson import persson
@@ -127,8 +127,9 @@ def estimator(
         else:
             estimate = partial(greenwood_williamson, spectrum.moments, composite_modulus=composite_modulus)
 
+    @imports_apart()
     def row(load: float) -> tuple[Row, Estimate]:
-        started = time.process_time()
+        started = working_time()
         found = estimate(load=load)
         return (
             Row(
@@ -141,7 +142,7 @@ def estimator(
                 complementarity=None,
                 iterations=None,
                 pressure_max=hardness if found.plastic_fraction > 0 else None,
-                cpu_s=time.process_time() - started,
+                cpu_s=working_time() - started,
             ),
             found,
         )

@@ -8,6 +8,8 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from roughfilm.contact.foundation.timing import one_time
+
 Numbers = Mapping[str, float]
 """Dimensionless numbers by name."""
 
@@ -226,6 +228,7 @@ def read_table(text: str) -> Table:
 
 
 @cache
+@one_time("start")
 def table() -> Table:
     """The table of laws that is part of this package."""
     return read_table(files(__package__).joinpath(TABLE).read_text(encoding="utf-8"))

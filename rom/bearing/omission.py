@@ -12,7 +12,7 @@ from roughfilm.rom.bearing.inertia import inertia
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.cavitation.solve import load_loops, solve
+from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.kind import Omission, kind_of_scene
 from roughfilm.rom.ladder.model import Effect, Model
 
@@ -137,7 +137,6 @@ def inertia_omitted(scene: Bearing, quantity: str) -> Omission | None:
 def _first_order(scene: Bearing, quantity: str) -> float:
     """The relative change of load or friction by inertia to first order, of the film with cavitation."""
     scene = expected_scene(scene)
-    load_loops(scene.wide)
     solution = solve(scene.problem(), (CELLS[scene.wide],) * 2)
     width = 1.0 if scene.geometry.width is None else scene.geometry.width
     values = {name: one.value for name, one in bearing_quantities(scene, solution).items()}

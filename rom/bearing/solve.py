@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from roughfilm.contact.foundation.timing import one_time, working_time
+from roughfilm.contact.foundation.timing import working_time
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import unknown_by_infinite_flows
 from roughfilm.rom.bearing.equilibrium.balance import SeparableBearing
@@ -39,7 +39,7 @@ from roughfilm.rom.cavitation.evaluation.grids import grid_sequence, grid_warnin
 from roughfilm.rom.cavitation.evaluation.numerics import numerics_of
 from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import Level, Solution, load_loops
+from roughfilm.rom.cavitation.solve import Level, Solution
 from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.homogenization.gap_factors import FactorsOverGap
 from roughfilm.rom.ladder.model import Model, Progress
@@ -106,8 +106,6 @@ def solve(
     cells = request.resolution
     scene.without_time()  # which refuses a scene that has loads over time alone
     if isinstance(scene.geometry, MovingWall):
-        with one_time("start"):
-            load_loops(scene.wide)
         law = None if contact is None else contact(scene)
         among = searched(scene) if searched is not None and scene.load is not None and law is None else None
         wall, cpu = time.perf_counter(), working_time()
@@ -124,14 +122,9 @@ def solve(
         )
     elif scene.load is None:
         problem = film(scene)
-        with one_time("start"):
-            load_loops(problem.shape.wide)
         wall, cpu = time.perf_counter(), working_time()
         found = _as_given(scene, problem, request, outputs, ruptures=ruptures, heat=heat, progress=progress)
     else:
-        with one_time("start"):
-            load_loops(wide=True)
-            load_loops(scene.wide)
         wall, cpu = time.perf_counter(), working_time()
         among = (searched or partial(smooth_films, film=film))(scene)
         if films is None:

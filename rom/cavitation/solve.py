@@ -3,14 +3,13 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.cavitation.balance import CAVITY
-from roughfilm.rom.cavitation.discretise import Ends, Faces, faces, network
+from roughfilm.rom.cavitation.discretise import Faces, faces, network
 from roughfilm.rom.cavitation.fluid import ViscosityField
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.interpolation import carried
@@ -20,7 +19,6 @@ from roughfilm.rom.cavitation.pressure_limit import at_constant_viscosity, press
 from roughfilm.rom.cavitation.problem import Inflow, Problem
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
 from roughfilm.rom.cavitation.restricted import fed, first_pressures
-from roughfilm.rom.cavitation.shape import Shape
 from roughfilm.rom.homogenization.gap_factors import mirrored_factors
 from roughfilm.rom.lubricants.compressibility import Incompressible
 
@@ -57,9 +55,6 @@ NEGATIVE_FILL_TOLERANCE = 1e-6
 
 SUPPLIED_RESIDUAL = 1e-11
 """Largest residual at which a film with inflows is solved, whose flows are sums over many nodes."""
-
-WARM_UP_CELLS = 40
-"""Number of cells of a film on which every compiled loop runs once."""
 
 Progress = Callable[[float, str], None]
 
@@ -367,11 +362,3 @@ def mirrored(problem: Problem) -> Problem:
 def mirrored_inflow(inflow: Inflow, ends: float) -> Inflow:
     """An inflow mirrored in x between two ends with the given sum of their positions, m."""
     return replace(inflow, covers=lambda x, y: inflow.covers(ends - x, y))
-
-
-@cache
-def load_loops(wide: bool) -> None:
-    """Compile or load the compiled loops once in a process, so that they do not count in the time of a film."""
-    shape = Shape(thickness=lambda x, y: 1e-6 * (2 - x) + 0 * y, breaks=(0.0, 1.0), wide=wide)
-    ends = Ends(sides=None if wide else (0.0, 0.0))
-    solve(Problem(shape=shape, ends=ends, speed=1.0, viscosity=1.0), (WARM_UP_CELLS, WARM_UP_CELLS))

@@ -17,7 +17,7 @@ from typing_extensions import TypeVar
 
 from roughfilm.contact.foundation.arrays import finite_arithmetic
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
-from roughfilm.contact.foundation.timing import claimed_costs
+from roughfilm.contact.foundation.timing import claimed_costs, imports_apart
 from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.request import CheckedRequest, Request
 from roughfilm.rom.ladder.result import Result, with_finite_numbers
@@ -222,7 +222,7 @@ class Model(Generic[SceneT]):
         here = self.available()
         if not here.available:
             raise UnavailableError(f"{self.name}: {here.detail}")
-        with reported_to(progress), finite_arithmetic(self.name):
+        with reported_to(progress), finite_arithmetic(self.name), imports_apart():
             checked, started = self.checked(scene, request), time.perf_counter()
             if not (fits := self.applies(scene)).applies:
                 raise InputError(f"model: got {self.name!r}; {fits.reason}")

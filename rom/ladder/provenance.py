@@ -12,6 +12,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from roughfilm.contact.foundation.timing import one_time
 from roughfilm.rom.ladder.kind import Scene
 from roughfilm.rom.ladder.scene import scene_entries
 
@@ -26,6 +27,7 @@ BLOCKS = (ast.stmt, ast.ExceptHandler, ast.match_case)
 
 
 @cache
+@one_time("start")
 def versions() -> dict[str, str]:
     """The versions of Python, of roughfilm and of the libraries with which it computes, by name."""
     from importlib import metadata  # slow to import
@@ -35,6 +37,7 @@ def versions() -> dict[str, str]:
 
 
 @cache
+@one_time("start")
 def commit() -> str:
     """The commit of the source tree, with "+changes" if files were edited since; "unknown" outside of a checkout."""
     tree = Path(__file__).resolve().parents[2]
@@ -54,6 +57,7 @@ def commit() -> str:
 
 
 @cache
+@one_time("start")
 def code() -> str:
     """A digest of all source files of contact, rom and foamcases: equal digests give equal numbers."""
     files = sorted(path for package in ("contact", "rom", "foamcases") for path in (LIBRARY / package).rglob("*.py"))
@@ -61,6 +65,7 @@ def code() -> str:
 
 
 @cache
+@one_time("start")
 def model_code(kind: str, model: str) -> str:
     """A digest of the code that a model runs, 16 hexadecimal digits: equal digests give equal numbers.
 
@@ -71,6 +76,7 @@ def model_code(kind: str, model: str) -> str:
 
 
 @cache
+@one_time("start")
 def imported_code(*modules: str) -> str:
     """A digest of modules of this library, by their dotted names, and of all that they import, as :func:`model_code`.
 

@@ -11,7 +11,7 @@ NAMES = {
     "table": "for the table of the surface",
     "compilation": "compilation, once per installation",
     "surface": "to read or make the surface",
-    "start": "to load compiled kernels",
+    "start": "to load the program",
 }
 """The words for each one-time cost."""
 

@@ -1,13 +1,13 @@
 """Variants of a bearing without some of its physical effects, and the differences between variants."""
 
 import math
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.timing import imports_apart, working_time
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.film import FlooredFlowFactors, averaged_film
 from roughfilm.rom.bearing.geometry.lobes import Lobes
@@ -25,7 +25,6 @@ from roughfilm.rom.bearing.warnings import scene_warnings
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty, grid_warnings
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
-from roughfilm.rom.cavitation.solve import load_loops
 from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.homogenization.gap_factors import GapFactors
 from roughfilm.rom.ladder.model import Progress, silent
@@ -271,6 +270,7 @@ class Amount:
     unit: str
 
 
+@imports_apart()
 def at_film(variant: Variant, cells: int, progress: Progress = silent) -> VariantSolution:
     """Solve a variant at the film thickness of its scene.
 
@@ -282,8 +282,7 @@ def at_film(variant: Variant, cells: int, progress: Progress = silent) -> Varian
         If the film does not converge.
     """
     problem, outputs, scene = variant.problem(), variant.outputs, variant.scene
-    load_loops(problem.shape.wide)
-    cpu = time.process_time()
+    cpu = working_time()
     thinned = thinning(scene)
     solution = balance(
         problem,
@@ -303,7 +302,7 @@ def at_film(variant: Variant, cells: int, progress: Progress = silent) -> Varian
         residual=solution.residual,
         imbalance=solution.imbalance,
         unknown=infinite_flows(solution),
-        cpu_s=time.process_time() - cpu,
+        cpu_s=working_time() - cpu,
         warnings=(*grid_warnings(solution), *scene_warnings(scene, solution)),
     )
 

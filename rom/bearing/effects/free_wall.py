@@ -1,8 +1,8 @@
 """Variants of a bearing whose wall moves freely: at its place, or where the wall carries the load of the scene."""
 
-import time
 from dataclasses import replace
 
+from roughfilm.contact.foundation.timing import imports_apart, working_time
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.effects.ablation import Variant, VariantSolution
 from roughfilm.rom.bearing.effects.under_load import VariantFilm
@@ -16,10 +16,10 @@ from roughfilm.rom.bearing.shear_thinning import thinning
 from roughfilm.rom.bearing.warnings import scene_warnings
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_warnings
 from roughfilm.rom.cavitation.problem import Problem
-from roughfilm.rom.cavitation.solve import load_loops
 from roughfilm.rom.ladder.model import Progress, silent
 
 
+@imports_apart()
 def solved_freely(variant: Variant, cells: int, progress: Progress = silent) -> VariantSolution:
     """Solve a variant with its wall at the place of the scene, or, with a load, where it carries the load.
 
@@ -31,14 +31,13 @@ def solved_freely(variant: Variant, cells: int, progress: Progress = silent) -> 
         If the film or its equilibrium does not converge.
     """
     scene, least = variant.scene, None
-    load_loops(scene.wide)
     if scene.load is not None and scene.asperities is None and variant.rough:
         least = VariantFilm(variant=replace(variant, scene=expected_scene(scene)), cells=cells).min_gap
 
     def film(one: Bearing) -> Problem:
         return replace(variant, scene=one).problem(least)
 
-    cpu, thinned = time.process_time(), thinning(scene)
+    cpu, thinned = working_time(), thinning(scene)
     free = solve_free(
         scene,
         cells,
@@ -66,6 +65,6 @@ def solved_freely(variant: Variant, cells: int, progress: Progress = silent) -> 
         imbalance=solution.imbalance,
         unknown=infinite_flows(solution),
         balance=free.balance or 0.0,
-        cpu_s=time.process_time() - cpu,
+        cpu_s=working_time() - cpu,
         warnings=(*grid_warnings(solution), *scene_warnings(scene, solution)),
     )

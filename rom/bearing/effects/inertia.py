@@ -22,7 +22,7 @@ from roughfilm.rom.bearing.inertia import inertia
 from roughfilm.rom.bearing.numbers import bearing_numbers, without_texture
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty
-from roughfilm.rom.cavitation.solve import load_loops, solve
+from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.model import Model, find, of_kind
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
@@ -143,7 +143,6 @@ def inertia_added(variant: Variant, cells: int, models: Sequence[Model]) -> Iner
             untextured_load=plain[0].by_inertia("load_per_width") if plain else None,
             pocket=None,
         )
-    load_loops(scene.wide)
     grids = grid_sequence(solve(variant.problem(), (cells, cells), ruptures=variant.ruptures))
     changes = {cells_of(grid): inertia(scene, grid) for grid in grids}
     pocket = pocket_inertia(scene, models)

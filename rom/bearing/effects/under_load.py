@@ -1,6 +1,5 @@
 """Variants of a bearing under a load: the film thickness at which they carry it."""
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -8,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.timing import imports_apart, working_time
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.effects.ablation import Variant, VariantSolution
@@ -23,7 +23,7 @@ from roughfilm.rom.bearing.shear_thinning import thinning
 from roughfilm.rom.cavitation.evaluation.grids import cells_of
 from roughfilm.rom.cavitation.grid import Grid, grid
 from roughfilm.rom.cavitation.network import State
-from roughfilm.rom.cavitation.solve import Solution, load_loops, solve
+from roughfilm.rom.cavitation.solve import Solution, solve
 from roughfilm.rom.ladder.model import Progress, silent
 
 MAX_THINNING = 30.0
@@ -146,6 +146,7 @@ class VariantFilm:
         return VariantState(variant=variant, solution=solution, load=load)
 
 
+@imports_apart()
 def under_load(variant: Variant, pressure: float, cells: int, progress: Progress = silent) -> VariantSolution:
     """Solve for the film thickness at which a variant carries a load, on successively finer grids.
 
@@ -163,8 +164,7 @@ def under_load(variant: Variant, pressure: float, cells: int, progress: Progress
     """
     if not 0 < pressure < float("inf"):
         raise InputError(f"pressure: got {pressure!r} Pa; it must be above 0 and finite")
-    load_loops(variant.scene.wide)
-    cpu = time.process_time()
+    cpu = working_time()
     averaged = variant.scene.asperities is not None or variant.rough
     found = equilibria(
         lambda size: VariantFilm(variant=variant, cells=size),
@@ -191,5 +191,5 @@ def under_load(variant: Variant, pressure: float, cells: int, progress: Progress
         imbalance=here.solution.imbalance,
         unknown=infinite_flows(here.solution),
         balance=found.balance,
-        cpu_s=time.process_time() - cpu,
+        cpu_s=working_time() - cpu,
     )

@@ -10,7 +10,6 @@ from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.film import averaged_film
 from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.cavitation.solve import load_loops
 
 CONTACT_FILM = 2.0
 """Expected film thickness over the rms height where asperities carry the load."""
@@ -37,7 +36,6 @@ def estimate(scene: Bearing) -> tuple[float, float]:
     """
     roughness, pressure = scene.roughness, scene.load_pressure
     assert pressure is not None
-    load_loops(scene.wide)
     closest, touching = closest_film(scene), 0.0
     if isinstance(roughness, Sinusoid):
         closest = max(closest, MIN_FILM_OVER_PEAK * (roughness.peak + scene.geometry.dip))

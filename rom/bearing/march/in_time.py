@@ -15,7 +15,7 @@ from roughfilm.rom.bearing.march.quasi_static import CELLS, TIMES, marched_chang
 from roughfilm.rom.bearing.moving.checks import MOMENTS
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.cavitation.solve import load_loops, solve
+from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.kind import InTime
 
 MAX_CHANGE = 0.3
@@ -206,7 +206,6 @@ def _carried(scene: Bearing) -> float:
     """The film under the load of a scene, m, or the load per width of its film, N/m, on a coarse grid."""
     if scene.load is not None:
         return expected_film(scene).thickness
-    load_loops(scene.wide)
     solution = solve(scene.problem(), (APPROACH_CELLS[scene.wide],) * 2)
     return bearing_quantities(scene, solution)["load_per_width"].value
 

@@ -1,14 +1,15 @@
 """The mixed film under a given load."""
 
-import time
 from dataclasses import replace
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.timing import imports_apart, working_time
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.stribeck import LOAD_TOLERANCE, RESOLUTION, StribeckPoint, curve_search, stribeck_point
 from roughfilm.rom.bearing.scene import Bearing
 
 
+@imports_apart()
 def equilibrium(
     scene: Bearing,
     pressure: float,
@@ -36,9 +37,9 @@ def equilibrium(
     """
     if not 0 < pressure < float("inf"):
         raise InputError(f"load: got {pressure!r} Pa; it must be above 0 and finite")
-    cpu = time.process_time()
+    cpu = working_time()
     if scene.asperities is None:
         raise InputError("scene.asperities: is missing; give the solids of the walls")
     search = curve_search(scene, asperities, [scene.motion.speed], [pressure], resolution, tolerance)
     state = search.solved(scene.motion.speed, pressure, ())
-    return replace(stribeck_point(state, search, pressure), cpu_s=time.process_time() - cpu)
+    return replace(stribeck_point(state, search, pressure), cpu_s=working_time() - cpu)

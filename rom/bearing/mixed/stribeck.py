@@ -1,6 +1,5 @@
 """Stribeck curves: friction, film thickness and contact load over speed."""
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -10,6 +9,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.timing import imports_apart, working_time
 from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
 from roughfilm.rom.bearing.flash import FlashTemperature, flash_temperature
@@ -21,7 +21,6 @@ from roughfilm.rom.bearing.mixed.search.separation import Search, SeparationSear
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
-from roughfilm.rom.cavitation.solve import load_loops
 from roughfilm.rom.ladder.model import Progress, silent
 
 RESOLUTION = 64
@@ -167,6 +166,7 @@ class StribeckCurve:
     __repr__ = brief
 
 
+@imports_apart()
 def stribeck(
     scene: Bearing,
     speeds: Sequence[float],
@@ -216,13 +216,12 @@ def stribeck(
     estimated |= {speed for speed in ordered if isclose(speed, abs(scene.motion.speed), rel_tol=SAME_SPEED)}
     curves: dict[float, list[StribeckPoint]] = {pressure: [] for pressure in sorted(pressures)}
     refused: dict[float, InputError | ConvergenceError] = {}
-    load_loops(scene.wide)
     for number, speed in enumerate(ordered):
         for count, (pressure, points) in enumerate(curves.items()):
             words = f"{speed:.4g} m/s, {pressure * 1e-6:.4g} MPa"
             progress((number + count / len(curves)) / len(ordered), words)
             before = point = done.get((pressure, speed))
-            cpu = time.process_time()
+            cpu = working_time()
             if point is None:
                 try:
                     state = search.solved(speed, pressure, [(one.speed, one.separation) for one in points])
@@ -237,7 +236,7 @@ def stribeck(
             if speed in estimated and not point.uncertainty:
                 point = replace(point, uncertainty=_uncertainty(point, search, coarse))
             if point is not before:
-                point = replace(point, cpu_s=point.cpu_s + time.process_time() - cpu)
+                point = replace(point, cpu_s=point.cpu_s + working_time() - cpu)
                 keep(point)
             points.append(point)
     finished = []

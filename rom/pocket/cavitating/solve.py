@@ -3,11 +3,11 @@
 import time
 
 from roughfilm.contact.foundation.rounding import share
-from roughfilm.contact.foundation.timing import one_time, working_time
+from roughfilm.contact.foundation.timing import working_time
 from roughfilm.rom.cavitation.balance import CAVITY
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty, grid_warnings
 from roughfilm.rom.cavitation.evaluation.numerics import numerics_of
-from roughfilm.rom.cavitation.solve import Solution, load_loops
+from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.cavitation.solve import solve as balance
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
@@ -35,8 +35,6 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     ConvergenceError
         If the residual does not meet the tolerance.
     """
-    with one_time("start"):
-        load_loops(wide=not scene.in_plan)
     wall, cpu = time.perf_counter(), working_time()
     cells = request.resolution
     if scene.in_plan:

@@ -23,7 +23,7 @@ from roughfilm.rom.cavitation.line import line_step
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import settle
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE
-from roughfilm.rom.cavitation.solve import COLD_SWEEPS, Solution, load_loops, solve
+from roughfilm.rom.cavitation.solve import COLD_SWEEPS, Solution, solve
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
 from roughfilm.rom.pocket.cavitating.grooves import groove_problem
@@ -175,7 +175,6 @@ def judgements(scene: Pocket) -> Iterator[Judgement]:
 
 def command(scenes: Annotated[int, typer.Option(min=1, help="Number of random pockets.")] = 300) -> None:
     """Print how often the stated bounds hold where the film ruptures."""
-    load_loops(wide=True)
     found: list[Judgement] = []
     kept = failed = 0
     for seed in seeds(10 * scenes):
