@@ -6,9 +6,10 @@ import numpy as np
 
 from roughfilm.foamcases.bearing.case import PadCard
 from roughfilm.foamcases.bearing.fields import PadFlow, read_pad
-from roughfilm.foamcases.bearing.units import pressure_difference, reynolds_number, velocity_unit
+from roughfilm.foamcases.bearing.units import pressure_difference, velocity_unit
 from roughfilm.foamcases.openfoam.case_directory import read_card
 from roughfilm.foamcases.openfoam.one_flow import Run, numerics_of
+from roughfilm.rom.bearing.outside import channel_outside
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.totals.reported import in_order
 from roughfilm.rom.bearing.warnings import rupture_warnings
@@ -17,7 +18,6 @@ from roughfilm.rom.bearing.wide_pad.quantities import pad_quantities
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Result
-from roughfilm.rom.parts.laminar import turbulence_warnings
 
 
 def read(solver: Model[Bearing], scene: Bearing, directory: Path, run: Run) -> Result:
@@ -28,9 +28,9 @@ def read(solver: Model[Bearing], scene: Bearing, directory: Path, run: Run) -> R
     flow = read_pad(directory, speed=abs(scene.motion.speed) / speed, inlet=driven)
     lowest, highest = flow.channel.pressure_range(driven, 0.0)
     through = flow.flow * speed * film
+    thickness, pressures = pad_gap(scene).thickness(flow.channel.position * film), np.array([lowest, highest]) * pascal
     warnings = [
-        *rupture_warnings(outlet + np.array([lowest, highest]) * pascal - scene.lubricant.cavitation_pressure),
-        *([] if scene.lubricant.density is None else turbulence_warnings(reynolds_number(scene))),
+        *rupture_warnings(outlet + pressures - scene.lubricant.cavitation_pressure),
         *run.warnings,
     ]
     return Result(
@@ -57,6 +57,7 @@ def read(solver: Model[Bearing], scene: Bearing, directory: Path, run: Run) -> R
             scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources, openfoam=run.version
         ),
         warnings=tuple(warnings),
+        outside=channel_outside(scene, thickness, float(through[0]), outlet + pressures),
     )
 
 

@@ -12,7 +12,7 @@ from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Result
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
-from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
+from roughfilm.rom.pocket.validity.warnings import ruptures
 
 
 def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Result:
@@ -47,5 +47,5 @@ def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Res
         },
         numerics=numerics_of(card, run, unknowns=3 * card.columns * card.layers, details={}),
         provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=solver.sources, openfoam=run.version),
-        warnings=(*cautions(scene), *ruptures(scene, lowest), *run.warnings),
+        warnings=(*ruptures(scene, lowest), *run.warnings),
     )

@@ -3,9 +3,10 @@ r"""The change of a converged film by inertia, to first order in the Reynolds nu
 With the velocities of the Reynolds equation and the forces C and D of :mod:`roughfilm.rom.thin_film.inertia`, inertia
 drives a flow while it changes the pressure by p₁,
 
-    q₁ = -h³/(12η) ∇p₁ - ρ h²/(2η) C,    ∇·q₁ = 0,
+    q₁ = -h³/(12η) ∇p₁ - ρ h²/(2η) C,    ∇·(θ q₁ + θ' p₁ q₀) = 0,
 
-and adds the shear stress h/2 ∂p₁/∂x + ρD on the sliding wall.
+and adds the shear stress h/2 ∂p₁/∂x + ρD on the sliding wall. The density is ρθ: C and D are those of the mass ρθh in
+place of h, as mass is conserved, and p₁ changes the density θ by θ' p₁, which the flow q₀ without inertia carries.
 
 On a line this is :func:`roughfilm.rom.pocket.closed_form.inertia_pressure_gradient`. In cavities, and at ends and sides
 with a prescribed pressure, p₁ = 0: the edges of the film do not move, and entrance losses are left out.
@@ -60,36 +61,42 @@ def inertia(scene: Bearing, solution: Solution) -> Inertia:
     if shape.polar or shape.joined[0]:
         raise InputError("scene.geometry: inertia cannot be estimated on rings, where centrifugal forces act")
     h, problem, grid = solution.faces.thickness, solution.problem, solution.grid
+    excess, per_pressure = problem.compression(solution.state.pressure)
+    dense = (1 + excess) * h
     own = problem.viscosity if problem.at_nodes is None else problem.at_nodes.flow
     viscosity = own / problem.fluidity(solution.state.pressure)[0]
     speed = problem.speed
     mobility = problem.mobility(solution.state.pressure)[0]
     east, north = solution.network.conductance(mobility)
     wet = solution.kind != CAVITY
-    a, b = _excess(solution, east, north, wet)
-    through_x = terms.momentum_along(h, a, speed)
-    through_xy = terms.momentum_between(h, a, b, speed)
-    through_y = terms.momentum_across(h, b)
+    a, b = _excess(solution, east / _behind(1 + excess, 0), north / _behind(1 + excess, 1), wet)
+    through_x = terms.momentum_along(dense, a, speed)
+    through_xy = terms.momentum_between(dense, a, b, speed)
+    through_y = terms.momentum_across(dense, b)
     dx, dy = grid.spacing_x[:-1, None], grid.spacing_y[:-1]
-    rise = speed * np.diff(h, axis=0) / dx
+    rise = speed * np.diff(dense, axis=0) / dx
     mean = _means(through_xy, 0)
     x_force = (
         np.diff(through_x, axis=0) / dx
         + _wet_slope(mean, 1, grid.y, _both(wet, 0))
         + rise * _means(terms.slope_along(a, speed), 0)
     )
-    drive = -density * _means(h**2 / (2 * viscosity), 0) * x_force * grid.volume_y * _both(wet, 0)
+    drive = -density * _means(dense * h / (2 * viscosity), 0) * x_force * grid.volume_y * _both(wet, 0)
     drive_y = np.zeros((h.shape[0], h.shape[1] - 1))
     if h.shape[1] > 1:
-        climb = speed * _slope(h, 0, grid.x)
+        climb = speed * _slope(dense, 0, grid.x)
         y_force = _wet_slope(_means(through_xy, 1), 0, grid.x, _both(wet, 1)) + np.diff(through_y, axis=1) / dy
         y_force += _means(climb * terms.slope_across(b), 1)
-        drive_y = -density * _means(h**2 / (2 * viscosity), 1) * y_force * grid.volume_x[:, None] * _both(wet, 1)
-    pressure = _balanced(solution.kind == FILM, east[:-1], north[:, :-1], drive, drive_y)
+        drive_y = -density * _means(dense * h / (2 * viscosity), 1) * y_force * grid.volume_x[:, None] * _both(wet, 1)
+    carried_x = _means(h * (speed / 2 + a), 0) * grid.volume_y * _both(wet, 0)
+    carried_y = _means(h * b, 1) * grid.volume_x[:, None] * _both(wet, 1)
+    pressure = _balanced(
+        solution.kind == FILM, (east[:-1], north[:, :-1]), (carried_x, carried_y), per_pressure, (drive, drive_y)
+    )
 
-    flow = drive - east[:-1] * np.diff(pressure, axis=0)
-    shear = np.diff(terms.shear_along(h, a, speed), axis=0) / dx
-    shear += _wet_slope(_means(terms.shear_between(h, a, b, speed), 0), 1, grid.y, _both(wet, 0))
+    flow = drive - east[:-1] * np.diff(pressure, axis=0) + carried_x * _means(per_pressure * pressure, 0)
+    shear = np.diff(terms.shear_along(dense, a, speed), axis=0) / dx
+    shear += _wet_slope(_means(terms.shear_between(dense, a, b, speed), 0), 1, grid.y, _both(wet, 0))
     shear += rise * _means(terms.shear_slope(a, speed), 0)
     stress = _means(h, 0) / 2 * np.diff(pressure, axis=0) / dx + density * shear * _both(wet, 0)
     x = scene_positions(solution)
@@ -130,9 +137,24 @@ def _node_means(values: Array, counted: NDArray[np.bool_], axis: int) -> Array:
     return np.asarray(2 * _means(padded, axis) / np.maximum(number, 1.0))
 
 
-def _balanced(free: NDArray[np.bool_], east: Array, north: Array, drive_x: Array, drive_y: Array) -> Array:
-    """The pressure at free nodes, zero elsewhere, whose flow balances the driven flow at each of them."""
-    number = np.full(free.shape, -1)
+def _behind(values: Array, axis: int) -> Array:
+    """The mean of the values at each node and at the next one along an axis, of the same shape."""
+    return np.asarray((values + np.roll(values, -1, axis=axis)) / 2)
+
+
+def _balanced(
+    free: NDArray[np.bool_],
+    conductances: tuple[Array, Array],
+    carried: tuple[Array, Array],
+    per_pressure: Array,
+    drives: tuple[Array, Array],
+) -> Array:
+    """The pressure at free nodes, zero elsewhere, whose flow balances the driven flow at each of them.
+
+    Each argument of two arrays has the faces towards i + 1 and j + 1. The density θ' p₁, with θ' = ``per_pressure`` at
+    the nodes, is carried by the flow without inertia, m³/s.
+    """
+    (drive_x, drive_y), number = drives, np.full(free.shape, -1)
     number[free] = np.arange(free.sum())
     into = np.zeros(free.shape)
     into[:-1] -= drive_x
@@ -140,13 +162,16 @@ def _balanced(free: NDArray[np.bool_], east: Array, north: Array, drive_x: Array
     into[:, :-1] -= drive_y
     into[:, 1:] += drive_y
     rows, columns, values = [], [], []
-    pairs = ((number[:-1], number[1:], east), (number[:, :-1], number[:, 1:], north))
-    for one, other, conductance in pairs:
-        for here, there in ((one, other), (other, one)):
+    along, across = (slice(None, -1), slice(None)), (slice(None), slice(None, -1))
+    behind = (slice(1, None), slice(None)), (slice(None), slice(1, None))
+    for begin, end, conductance, flow in zip((along, across), behind, conductances, carried, strict=True):
+        for near, far, out in ((begin, end, flow), (end, begin, -flow)):
+            here, there = number[near], number[far]
             known, both = here >= 0, (here >= 0) & (there >= 0)
             rows += [here[known], here[both]]
             columns += [here[known], there[both]]
-            values += [conductance[known], -conductance[both]]
+            values += [(conductance + out / 2 * per_pressure[near])[known]]
+            values += [(-conductance + out / 2 * per_pressure[far])[both]]
     size = int(free.sum())
     solution = np.zeros(free.shape)
     if size:

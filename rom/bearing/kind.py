@@ -26,6 +26,7 @@ from roughfilm.rom.bearing.supply.tables import SUPPLIES
 from roughfilm.rom.bearing.thermal.tables import WALLS
 from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import InTime, Kind, Omission
+from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.lubricants.laws import LAWS, THERMAL_LAWS
 from roughfilm.rom.lubricants.shear_thinning import THINNING_LAWS
@@ -276,6 +277,15 @@ def missing(scene: Bearing, model: Any) -> float:
     return missing(scene, model)
 
 
+def outside(scene: Bearing, model: Any, result: Result | None) -> tuple[str, ...]:
+    """The sentences on a scene that is surely outside the range of a model, before it is solved."""
+    if result is not None:
+        return ()  # each model judges the film that it has found
+    from roughfilm.rom.bearing.outside import scene_outside  # slow to import
+
+    return scene_outside(scene, model)
+
+
 def steady(scene: Bearing) -> Bearing:
     """The scene at the time by which models are judged, if it changes in time; else the scene."""
     if scene.motion.over_time is None:
@@ -354,6 +364,7 @@ KIND = Kind(
     in_time=in_time,
     lawless=squeezed,
     omitted=omitted,
+    outside=outside,
     missing=missing,
     lists=frozenset(
         {

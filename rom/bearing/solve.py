@@ -20,6 +20,7 @@ from roughfilm.rom.bearing.free.evaluated import evaluated
 from roughfilm.rom.bearing.free.solve import PlacedFilm, WithField, solve_free
 from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
+from roughfilm.rom.bearing.outside import film_outside
 from roughfilm.rom.bearing.quantities import EXACT, FILM_OUTPUTS, Fields, Outputs
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.supply.quantities import supply_warnings
@@ -180,6 +181,7 @@ def solve(
             **origin_of(solution.problem.shape.roughness),
         ),
         warnings=tuple(warnings),
+        outside=film_outside(found.scene, solution),
     )
 
 

@@ -13,7 +13,7 @@ from roughfilm.rom.pocket.plan.level import levels_of, quantities_of
 from roughfilm.rom.pocket.plan.quantities import plan_fields
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.promise import promise_warnings
-from roughfilm.rom.pocket.validity.warnings import cautions, column_warnings, inertia_warnings, ruptures, steep_warnings
+from roughfilm.rom.pocket.validity.warnings import column_warnings, inertia_warnings, ruptures, steep_warnings
 
 
 def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:
@@ -61,7 +61,6 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             scheme=request.scheme,
         ),
         warnings=(
-            *cautions(scene),
             *promise_warnings(scene, solver.name),
             *column_warnings(scene, request.resolution),
             *steep_warnings(scene),

@@ -15,6 +15,8 @@ from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.ladder.sweeping import Columns, Sweeping
+from roughfilm.rom.parts.gas import compressibility_of_gas
+from roughfilm.rom.parts.laminar import shear_turbulence
 from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
 from roughfilm.rom.pocket.plan.dimples import SHAPES
 from roughfilm.rom.pocket.plan.geometry import PlanGeometry
@@ -136,6 +138,9 @@ def worth(values: Columns) -> NDArray[np.bool_]:
     return np.asarray(np.abs(values["load_plus"]) > MIN_JUDGED_LOAD * largest_pressure(values))
 
 
+THIN = 0.1
+"""2d/w of a groove or dimple up to which the film in it is thin."""
+
 ZERO_IN_PLAN = "pressures count from their mean over the edges x = ±L/2 of the cell on the sliding wall"
 """The place where the pressure of a cell in plan is zero, in words."""
 
@@ -167,6 +172,21 @@ def outside_laws(scene: Pocket, result: Result, quantity: str) -> str:
         return ""
     load, lowest, highest = (result.quantities[name].value for name in ("load_plus", *EXTREMES))
     return next(iter(cancellations(scene, load=load, lowest=lowest, highest=highest)), "")
+
+
+def outside(scene: Pocket, _model: Any, result: Result | None) -> tuple[str, ...]:
+    """The sentences on a flow that is not laminar, or on a gas that is taken as a liquid.
+
+    The film of the Reynolds number is the thickest one, with the depth of grooves or dimples that are thin films, too.
+    """
+    turbulent = shear_turbulence(scene.reynolds_number * (1 + (scene.depth if scene.aspect <= THIN else 0.0)))
+    if result is None:
+        return turbulent
+    lubricant, ambient = scene.lubricant, scene.boundary.ambient_pressure
+    pressures = [result.quantities[name].value for name in EXTREMES if name in result.quantities]
+    largest = max(map(abs, pressures), default=0.0) / scene.plus_factor * scene.pressure_unit
+    number = 6 * scene.pressure_unit * scene.geometry.length / scene.geometry.film / ambient
+    return (*turbulent, *compressibility_of_gas(lubricant.density, lubricant.viscosity, largest, ambient, number))
 
 
 def _length(text: str) -> float:
@@ -224,6 +244,7 @@ KIND = Kind(
     omitted=omitted,
     missing=missing,
     outside_laws=outside_laws,
+    outside=outside,
     variants={LAWS_IN_PLAN: in_plan},
     replaces={
         "motion.speed": ("reynolds_number",),

@@ -14,7 +14,7 @@ from roughfilm.rom.pocket.piecewise import gauss_rule
 from roughfilm.rom.pocket.pressure import film_pressure, flow_and_residual, mean, sample
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.validity.promise import promise_warnings
-from roughfilm.rom.pocket.validity.warnings import cautions, ruptures
+from roughfilm.rom.pocket.validity.warnings import ruptures
 
 
 def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:
@@ -48,7 +48,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             )
         order, tries = 2 * order, tries + 1
 
-    warnings = [*cautions(scene), *promise_warnings(scene, model)]
+    warnings = [*promise_warnings(scene, model)]
     if residual > tolerance:
         warnings.append(f"residual {residual:.1e} at {order} nodes on a piece misses the tolerance {tolerance:.1e}")
     flow = film_pressure(gap, film, rule, q, scene.reynolds_number if Effect.INERTIA in keeps else 0.0)

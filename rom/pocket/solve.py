@@ -13,7 +13,7 @@ from roughfilm.rom.ladder.result import Field, Numerics, Result
 from roughfilm.rom.pocket.model import SCHEMES
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 from roughfilm.rom.pocket.validity.promise import promise_warnings
-from roughfilm.rom.pocket.validity.warnings import cancellations, cautions, ruptures
+from roughfilm.rom.pocket.validity.warnings import cancellations, ruptures
 from roughfilm.rom.thin_film import newton, slope, thin_film
 from roughfilm.rom.thin_film.basis import even_basis, gauss_basis, sliding_wall_slope
 from roughfilm.rom.thin_film.newton import MODES
@@ -43,7 +43,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         film, scene.reynolds_number, tolerance=tolerance, with_slope=Effect.SLOPE in keeps, progress=progress
     )
     state, pressure = found.state, found.pressure
-    warnings = [*cautions(scene), *promise_warnings(scene, model), *newton.mode_warnings(state.amplitudes, MODES)]
+    warnings = [*promise_warnings(scene, model), *newton.mode_warnings(state.amplitudes, MODES)]
     middle, lowest, highest = (pressure[1:] + pressure[:-1]) / 2, float(pressure.min()), float(pressure.max())
     shear = (1 + thin_film.all_amplitudes(film, across, state) @ sliding_wall_slope(MODES)) / film.thickness
     u, v = slope.velocities(film, even_basis(MODES, LAYERS), state)

@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import Kind, Omission
+from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
+from roughfilm.rom.parts.laminar import pressure_turbulence, shear_turbulence
 from roughfilm.rom.parts.surface_geometry import replaced_by
 from roughfilm.rom.rough_gap.scene import RoughGap
 
@@ -92,6 +94,12 @@ def numbers(scene: RoughGap) -> dict[str, float]:
     }
 
 
+def outside(scene: RoughGap, _model: Any, _result: Result | None) -> tuple[str, ...]:
+    """The sentences on a flow by pressure, or by sliding as fast, that is not laminar."""
+    sliding = scene.density * scene.sliding_speed * scene.mean_gap / scene.viscosity
+    return (*pressure_turbulence(scene.reynolds_number), *shear_turbulence(sliding))
+
+
 def omitted(scene: RoughGap, _model: Any, quantity: str) -> Omission | None:
     """The effect of cavitation; None if the film does not rupture."""
     from roughfilm.rom.rough_gap.omission import rupture_omitted  # slow to import
@@ -133,6 +141,7 @@ KIND = Kind(
     symbols=NUMBERS,
     excluded="cavitation, heat and deformation by the pressure of the liquid",
     omitted=omitted,
+    outside=outside,
     replaces={
         "geometry.surface": lambda surface: (*replaced_by(surface), "amplitude", "wavelength"),
         "flow.pressure_gradient": ("reynolds_number",),

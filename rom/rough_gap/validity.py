@@ -13,13 +13,6 @@ from roughfilm.rom.rough_gap.flow.range_of_validity import (
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.walls import Walls
 
-TURBULENT = 1300.0
-"""Re = ρq/η at which flow between parallel walls becomes turbulent: 1000 with half the gap and the centre speed.
-
-Source: Carlson, Widnall and Peeters 1982, doi:10.1017/S0022112082002006.
-"""
-
-
 MAX_OMITTED = 0.01
 """Largest relative change of the flow by an omitted effect of the walls without a warning."""
 
@@ -53,11 +46,6 @@ def too_rough(walls: Walls) -> tuple[str, ...]:
 def cautions(scene: RoughGap, walls: Walls) -> tuple[str, ...]:
     """The warnings for all models of a scene on these walls."""
     warnings = []
-    if scene.reynolds_number > TURBULENT:
-        warnings.append(
-            f"Re = {scene.reynolds_number:.4g} is above {TURBULENT:.0f}, where flow between parallel walls becomes "
-            "turbulent; all models assume laminar, steady flow"
-        )
     if walls.slides and (walls.gap == 0).any():
         warnings.append("friction does not converge where the walls touch: it grows as the grid is refined")
     rough = [scene.geometry, *([scene.geometry.upper] if scene.geometry.upper else [])]

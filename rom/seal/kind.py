@@ -9,7 +9,11 @@ from numpy.typing import NDArray
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.dry_contact import kind as dry_contact
 from roughfilm.rom.ladder.kind import Kind
+from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.sweeping import Columns, Sweeping
+from roughfilm.rom.parts.gas import leakage_of_gas
+from roughfilm.rom.parts.laminar import pressure_turbulence
+from roughfilm.rom.parts.surroundings import ATMOSPHERE
 from roughfilm.rom.seal.scene import Seal
 
 MIN_LEAKAGE = 1e-4
@@ -47,6 +51,15 @@ def numbers(scene: Seal) -> dict[str, float]:
     return {**own, "length": scene.flow.length / scene.surface().size[scene.axis]} if own else {}
 
 
+def outside(scene: Seal, _model: Any, result: Result | None) -> tuple[str, ...]:
+    """The sentences on a leakage that is not laminar, and on a gas that is taken as a liquid."""
+    liquid = scene.liquid
+    gas = leakage_of_gas(liquid.density, liquid.viscosity, scene.flow.pressure_drop, ATMOSPHERE)
+    if result is None:
+        return gas
+    return (*pressure_turbulence(result.quantities["leakage_per_width"].value / liquid.viscosity), *gas)
+
+
 def remarks(entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> tuple[str, ...]:
     """The key that the leakage of the whole seal needs, if it is missing."""
     if "width" in entries["flow"]:
@@ -62,6 +75,7 @@ KIND = Kind(
     compared={"leakage_per_width": "leakage", "area_fraction": "contact area"},
     others={"mean_gap": "mean gap", "permeability": "permeability"},
     remarks=remarks,
+    outside=outside,
     reported={
         "leakage": "leakage, whole seal",
         "leakage_per_width": "leakage per width",

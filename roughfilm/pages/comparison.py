@@ -19,8 +19,9 @@ from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import scene_entries
 from roughfilm.rom.studies.comparison import Difference, Point, relative_uncertainty
 from roughfilm.rom.studies.convergence import Convergence
-from roughfilm.words.headline import STATED, headline, listed, outside_in_words, whole
+from roughfilm.words.headline import STATED, headline, listed, whole
 from roughfilm.words.numbers import percent
+from roughfilm.words.outside import outside_in_words
 from roughfilm.words.scales import Scales, scales_of
 
 LINKS = "https://doi.org/"
@@ -242,7 +243,7 @@ def _convergence(report: Report, scales: Scales) -> list[dict[str, Any]]:
 
 def _warnings(report: Report) -> list[tuple[str, str]]:
     """What is outside the range of each model, and the warnings, without those on errors, which the table shows."""
-    return [(name, outside_in_words(result)) for name, result in report.results.items() if result.outside] + [
+    return [(name, outside_in_words(result.outside)) for name, result in report.results.items() if result.outside] + [
         (name, warning)
         for name, result in report.results.items()
         for warning in result.warnings

@@ -18,7 +18,7 @@ from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.ladder.setting import Setting
-from roughfilm.rom.parts.laminar import TURBULENT
+from roughfilm.rom.parts.laminar import SHEAR_LIMIT
 from roughfilm.stability.form import SECOND_TRY, MapOutcome, Spot, Spots, StabilityMap, count, failed, in_groups
 
 RE, DEPTH = "Re", "d+"
@@ -186,7 +186,7 @@ POCKET = StabilityMap(
     title="A groove under a sliding wall",
     axes="A groove 300 µm wide in a period of 1000 µm under a film of 30 µm: Re = ρ u Ly/η (columns) and depth "
     "d+ = d/Ly (rows), by every model with every scheme; OpenFOAM with {resolution} mesh columns, the other models at "
-    f"their default resolution. Above Re = {TURBULENT:g} shear flow turns turbulent, and every model takes it as "
+    f"their default resolution. Above Re = {SHEAR_LIMIT:g} shear flow turns turbulent, and every model takes it as "
     "laminar.",
     judge="The residual of the equations of each model, recomputed. A run that converged is steady by its own "
     "equations, which does not prove that the real flow is. OpenFOAM stops when its residual has not halved "
@@ -203,7 +203,7 @@ DIMPLES = replace(
     title="A dimple under a sliding wall",
     axes="A spherical dimple 500 µm wide in a square cell of 1000 µm under a film of 30 µm: Re = ρ u Ly/η (columns) "
     "and depth d+ = d/Ly (rows), by every model with every scheme; OpenFOAM with {resolution} mesh columns along the "
-    f"cell, the other models at their default resolution. Above Re = {TURBULENT:g} shear flow turns turbulent, and "
+    f"cell, the other models at their default resolution. Above Re = {SHEAR_LIMIT:g} shear flow turns turbulent, and "
     "every model takes it as laminar.",
     resolution=32,
     solve=Places(
@@ -218,7 +218,7 @@ PADS = replace(
     axes="An infinitely wide parallel pad of 4 mm under a film of 30 µm, with two grooves 500 µm wide in its leading "
     "half: Re = ρ u h/η (columns) and depth d+ = d/h (rows), by every model with every scheme; OpenFOAM with "
     "{resolution} mesh columns, the other models at their default resolution. Above Re = "
-    f"{TURBULENT:g} shear flow turns turbulent, and every model takes it as laminar.",
+    f"{SHEAR_LIMIT:g} shear flow turns turbulent, and every model takes it as laminar.",
     resolution=160,
     solve=Places(entries=PAD).solve,
 )

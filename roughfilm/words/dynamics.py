@@ -9,6 +9,7 @@ from roughfilm.rom.bearing.dynamics.point import DynamicPoint
 from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.words.numbers import digits
+from roughfilm.words.outside import outside_in_words, outside_of_series
 from roughfilm.words.stribeck import SpeedScale, speed_scale
 
 STABLE, UNSTABLE = "any", "none"
@@ -62,13 +63,17 @@ def own_point(scene: Bearing, curve: DynamicCurve) -> DynamicPoint:
 def answer_of(scene: Bearing, curve: DynamicCurve) -> str:
     """Stiffness, damping and stability of a curve at the speed nearest to that of the scene."""
     point, scale = own_point(scene, curve), speed_scale(scene)
+    beyond = outside_in_words(point.outside)
     at = f"at {digits(scale.factor * point.speed)} {scale.unit} under {curve.pressure / 1e6:.4g} MPa"
     if point.numbers.get("contact_share"):
         at += f", of which asperities carry {number_of(point, 'contact_share', 100.0)} %"
     if "temperature" in point.numbers:
         at += f", film at {number_of(point, 'temperature')} °C"
     if "whirl_ratio" not in point.numbers:
-        return f"stiffness {number_of(point, 'stiffness', 1e-6)} N/µm, damping {number_of(point, 'damping')} N·s/m {at}"
+        words = (
+            f"stiffness {number_of(point, 'stiffness', 1e-6)} N/µm, damping {number_of(point, 'damping')} N·s/m {at}"
+        )
+        return "; ".join(filter(None, [beyond, words]))
     mass = critical_mass(point)
     if mass in (STABLE, UNSTABLE):
         words = f"a rigid rotor is stable at {'any' if mass == STABLE else 'no'} mass {at}"
@@ -76,7 +81,7 @@ def answer_of(scene: Bearing, curve: DynamicCurve) -> str:
         words = f"the critical mass of a rigid rotor is unknown on this grid {at}, take more cells"
     else:
         words = f"a rigid rotor is stable up to {mass} kg in the bearing, whirl ratio {whirl_ratio(point)}, {at}"
-    return "; ".join(filter(None, [words, onset(scene, curve)]))
+    return "; ".join(filter(None, [beyond, words, onset(scene, curve)]))
 
 
 def heat_warnings(scene: Bearing, curves: Sequence[DynamicCurve]) -> list[str]:
@@ -88,8 +93,11 @@ def heat_warnings(scene: Bearing, curves: Sequence[DynamicCurve]) -> list[str]:
 
 
 def warnings_of(scene: Bearing, curve: DynamicCurve) -> list[str]:
-    """Warnings about the speeds without an equilibrium, and about unstable rotors."""
+    """Warnings about films outside the range of the model, speeds without an equilibrium, and unstable rotors."""
     scale, warnings, load = speed_scale(scene), [], f"{curve.pressure / 1e6:.4g} MPa"
+    places = [(f"{digits(scale.factor * one.speed)} {scale.unit}", one.outside) for one in curve.points]
+    if beyond := outside_of_series(places):
+        warnings.append(f"{load}: {beyond}")
     if curve.omitted:
         speeds = ", ".join(digits(scale.factor * one.speed) for one in curve.omitted)
         warnings.append(f"{load}: left out at {speeds} {scale.unit}: {curve.omitted[0].reason}")

@@ -8,6 +8,7 @@ from roughfilm.rom.advice.stated import BY_ITS_RUN, BY_LAWS, percent, stated_err
 from roughfilm.rom.ladder.kind import Scene, kind_of, kind_of_scene
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.result import Result
+from roughfilm.words.outside import outside_in_words
 from roughfilm.words.scales import Scales
 
 STATED = "stated by the run"
@@ -88,11 +89,6 @@ def included(scene: Scene, model: Model, models: Sequence[Model]) -> str:
     return f"{model.name}{rank}{words}"
 
 
-def outside_in_words(result: Result) -> str:
-    """The ways in which a result is outside the range of its model, in one line; "" if it is inside."""
-    return f"outside the range of the model: {'; '.join(result.outside)}; error unknown" if result.outside else ""
-
-
 def sureness(result: Result, origin: str = STATED) -> str:
     """The numerical uncertainty of the answer and the error of the model in words, each with its origin."""
     kind = kind_of(result)
@@ -105,7 +101,7 @@ def sureness(result: Result, origin: str = STATED) -> str:
     else:
         numerical = f"± is the numerical uncertainty, {percent(one.uncertainty / size)} ({origin})"
     if result.outside:
-        return f"{outside_in_words(result)}; {numerical}"
+        return f"{outside_in_words(result.outside)}; {numerical}"
     error = stated_errors(result).get(name)
     if error is None or not math.isfinite(error.error) or error.source == BY_ITS_RUN:
         return f"{numerical}; effects that the model leaves out are not in it"

@@ -9,6 +9,7 @@ from roughfilm.rom.bearing.mixed.stribeck import StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.words.average import rounded
 from roughfilm.words.numbers import with_error
+from roughfilm.words.outside import outside_in_words, outside_of_series
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,10 +97,23 @@ def flash_warnings_of(scene: Bearing, points: Sequence[StribeckPoint]) -> list[s
     return list(dict.fromkeys(warning for warnings in found for warning in warnings))
 
 
+def outside_warnings(scene: Bearing, curves: Sequence[StribeckCurve]) -> list[str]:
+    """A warning for each load with points outside the range of the model."""
+    scale = speed_scale(scene)
+    found = {
+        curve.pressure: outside_of_series(
+            [(f"{scale.factor * point.speed:.4g} {scale.unit}", point.outside) for point in curve.points]
+        )
+        for curve in curves
+    }
+    return [f"{pressure / 1e6:g} MPa: {words}" for pressure, words in found.items() if words]
+
+
 def at_own_speed(scene: Bearing, curves: Sequence[StribeckCurve]) -> list[str]:
     """The friction coefficient at the speed of the scene, under each load whose curve has it."""
     scale, found = speed_scale(scene), {curve.pressure: own_point(scene, curve) for curve in curves}
     return [
+        f"{(beyond := outside_in_words(point.outside)) and f'{beyond}; '}"
         f"friction coefficient {number_of(point, 'friction_coefficient')} at {scale.factor * point.speed:.4g} "
         f"{scale.unit} under {pressure / 1e6:.4g} MPa"
         for pressure, point in found.items()

@@ -6,8 +6,9 @@ from roughfilm.rom.advice.stated import LEAST_STATED, percent, stated_errors
 from roughfilm.rom.ladder.kind import kind_of
 from roughfilm.rom.ladder.result import Result
 from roughfilm.words.cost import cost_in_words
-from roughfilm.words.headline import outside_in_words, whole
+from roughfilm.words.headline import whole
 from roughfilm.words.numbers import digits
+from roughfilm.words.outside import outside_in_words
 from roughfilm.words.units import scale_of, without_round_off
 
 
@@ -48,7 +49,7 @@ def value_of(result: Result, quantity: str) -> str:
 def judgement(result: Result, quantity: str, within: float) -> str:
     """Whether the error of a quantity is within a tolerance, with the error and its source."""
     if result.outside:
-        return outside_in_words(result)
+        return outside_in_words(result.outside)
     error = stated_errors(result).get(quantity)
     if error is None or not math.isfinite(error.error):
         return f"error unknown, not known to be enough for {percent(within)}"

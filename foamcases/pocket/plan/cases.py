@@ -12,7 +12,7 @@ from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Result
 from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
 from roughfilm.rom.pocket.scene import Pocket
-from roughfilm.rom.pocket.validity.warnings import cautions, inertia_warnings, ruptures
+from roughfilm.rom.pocket.validity.warnings import inertia_warnings, ruptures
 
 MAX_IMBALANCE = 0.005
 """Largest difference of the drags on both walls, over that on the sliding wall, without a warning."""
@@ -64,5 +64,5 @@ def read_plan(solver: Model[Pocket], scene: Pocket, directory: Path, card: Card,
         provenance=provenance(
             scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources, openfoam=run.version
         ),
-        warnings=(*cautions(scene), *ruptures(scene, lowest - wall.edge_mean), *remarks, *run.warnings),
+        warnings=(*ruptures(scene, lowest - wall.edge_mean), *remarks, *run.warnings),
     )

@@ -80,6 +80,7 @@ class DynamicPoint:
     uncertainty : uncertainty of each of them; infinite where it is unknown.
     residual : larger of the relative residuals of the film and of the forces.
     cpu_s : CPU time, s.
+    outside : the ways in which the film is outside the range of the model; the error of the numbers is then unknown.
     """
 
     pressure: float
@@ -90,6 +91,7 @@ class DynamicPoint:
     uncertainty: Mapping[str, float] = field(default_factory=dict)
     residual: float
     cpu_s: float
+    outside: tuple[str, ...] = ()
 
     @property
     def stiffness(self) -> Array:

@@ -10,7 +10,7 @@ import h5py
 from roughfilm.contact.foundation.checked_hdf5 import open_if_of, write_checked, write_column, write_inputs
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
-from roughfilm.contact.foundation.reading.hdf5_content import Numbers
+from roughfilm.contact.foundation.reading.hdf5_content import Json, Numbers
 from roughfilm.contact.foundation.writing.kinds import beginning_with
 from roughfilm.rom.bearing.dynamics.point import ENTRIES, UNITS, DynamicPoint
 from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve, dynamics
@@ -59,7 +59,7 @@ def save_points(path: Path, inputs: Inputs, points: Sequence[DynamicPoint]) -> N
     """Write points in one step, in order of load and speed.
 
     ``points/`` has a column for each number of the operation, ``numbers/`` and ``uncertainty/`` one for each quantity;
-    numbers may be infinite or NaN.
+    numbers may be infinite or NaN. The attribute ``outside`` has the sentences of each point, as JSON.
 
     Raises
     ------
@@ -75,6 +75,7 @@ def save_points(path: Path, inputs: Inputs, points: Sequence[DynamicPoint]) -> N
         for name in ordered[0].numbers if ordered else ():
             write_column(file, f"numbers/{name}", [point.numbers[name] for point in ordered], UNITS[name])
             write_column(file, f"uncertainty/{name}", [point.uncertainty[name] for point in ordered], UNITS[name])
+        file.attrs["outside"] = json.dumps([point.outside for point in ordered])
 
     write_checked(path, MARK, fill)
 
@@ -96,11 +97,13 @@ def known_points(path: Path, inputs: Inputs) -> tuple[DynamicPoint, ...]:
         for group in ("numbers", "uncertainty"):
             wanted |= {f"{group}/{name}": Numbers(shape=ROWS, missing=True, infinite=True) for name in names}
         columns = content.take(wanted)
+        outside = content.one("@outside", Json(kind=tuple[tuple[str, ...], ...]))
     return tuple(
         DynamicPoint(
             **{name: columns[f"points/{name}"][row].item() for name in OPERATION},
             numbers={name: columns[f"numbers/{name}"][row].item() for name in names},
             uncertainty={name: columns[f"uncertainty/{name}"][row].item() for name in names},
+            outside=outside[row],
         )
         for row in range(len(columns["points/speed"]))
     )
@@ -155,7 +158,7 @@ def write_csv(path: Path, scene: Bearing, curves: Sequence[DynamicCurve]) -> Non
     """Write a row for each point with its uncertainties; the first line has names and units.
 
     Of a shaft, the stiffness K c/W and the damping B c ω/W stand behind, with the clearance c and the load W. An
-    unknown uncertainty is empty.
+    unknown uncertainty is empty. If some points are outside the range of the model, the last column is 1 there.
     """
     points = [point for curve in curves for point in curve.points]
     operation, names = ("pressure", "load", "speed", "rotation"), [name for name in UNITS if name in points[0].numbers]
@@ -163,11 +166,14 @@ def write_csv(path: Path, scene: Bearing, curves: Sequence[DynamicCurve]) -> Non
     heads = [f"{name} ({OPERATION[name]})" for name in operation]
     heads += [f"{name} ({UNITS[name]})" for name in names] + [f"{name} ± ({UNITS[name]})" for name in names]
     heads += [f"{name} (1)" for name in dimensionless]
+    some = any(point.outside for point in points)
+    heads += ["outside_range (1)"] if some else []
     lines = [", ".join(heads)]
     for point in points:
         row = [getattr(point, name) for name in operation]
         row += [values[name] for values in (point.numbers, point.uncertainty) for name in names]
         row += dimensionless_of(scene, point).values()
+        row += [float(bool(point.outside))] if some else []
         whole = len(operation) + len(names)
         texts = [repr(float(number)) for number in row]
         unknown = [whole <= at < whole + len(names) and not math.isfinite(number) for at, number in enumerate(row)]

@@ -14,9 +14,11 @@ from roughfilm.rom.bearing.dynamics.balance import Equilibrium, balanced_equilib
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, rotation_of
 from roughfilm.rom.bearing.dynamics.wall_errors import wall_errors
 from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
+from roughfilm.rom.bearing.free.solve import placed
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.march.rough_walls import Walls, walls_of
+from roughfilm.rom.bearing.outside import film_outside
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
 from roughfilm.rom.ladder.model import Progress, silent
 
@@ -201,7 +203,8 @@ def dynamic_point(
     net_force = film.solved.force(instant.state.pressure) + film.solved.contact_at(instant.place).force + film.load
     load = math.hypot(*film.load[shaft])
     numbers, uncertainty = finished(points, rotation, of_walls, math.hypot(*net_force[shaft]) / load)
-    uncertainty |= dict.fromkeys(infinite_flows(film.solution(instant)) & uncertainty.keys(), math.inf)
+    solution = film.solution(instant)
+    uncertainty |= dict.fromkeys(infinite_flows(solution) & uncertainty.keys(), math.inf)
     return DynamicPoint(
         pressure=pressure,
         load=load,
@@ -211,6 +214,7 @@ def dynamic_point(
         uncertainty=uncertainty,
         residual=max(instant.residual, instant.force_residual),
         cpu_s=time.process_time() - cpu,
+        outside=film_outside(placed(film, instant), solution),
     )
 
 

@@ -16,6 +16,7 @@ from roughfilm.rom.bearing.mixed.film import mixed_problem
 from roughfilm.rom.bearing.mixed.quantities import MIXED_OUTPUTS
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.numbers import without_texture
+from roughfilm.rom.bearing.outside import film_outside
 from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Outputs
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import thinning
@@ -241,6 +242,7 @@ class VariantSolution:
     cpu_s : CPU time, s.
     balance : relative error of the load.
     warnings : sentences.
+    outside : the ways in which the film is outside the range of the model.
     """
 
     scene: Bearing
@@ -254,6 +256,7 @@ class VariantSolution:
     balance: float = 0.0
     unknown: frozenset[str] = frozenset()
     warnings: tuple[str, ...] = ()
+    outside: tuple[str, ...] = ()
 
     @property
     def values(self) -> Mapping[str, float]:
@@ -304,6 +307,7 @@ def at_film(variant: Variant, cells: int, progress: Progress = silent) -> Varian
         unknown=infinite_flows(solution),
         cpu_s=working_time() - cpu,
         warnings=(*grid_warnings(solution), *scene_warnings(scene, solution)),
+        outside=film_outside(scene, solution),
     )
 
 

@@ -66,6 +66,11 @@ class EffectStudy:
     cpu_s: float
 
     @property
+    def outside(self) -> tuple[str, ...]:
+        """The ways in which the film with all effects is outside the range of the model."""
+        return self.whole.outside
+
+    @property
     def full(self) -> Mapping[str, Amount]:
         """The values with all effects."""
         return amounts(self.whole)

@@ -11,6 +11,7 @@ from roughfilm.rom.bearing.equilibrium.grids import FILM_RESIDUAL
 from roughfilm.rom.bearing.free.evaluated import evaluated
 from roughfilm.rom.bearing.free.solve import solve_free
 from roughfilm.rom.bearing.mixed.wall import asperities_of
+from roughfilm.rom.bearing.outside import film_outside
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import thinning
 from roughfilm.rom.bearing.warnings import scene_warnings
@@ -67,4 +68,5 @@ def solved_freely(variant: Variant, cells: int, progress: Progress = silent) -> 
         balance=free.balance or 0.0,
         cpu_s=working_time() - cpu,
         warnings=(*grid_warnings(solution), *scene_warnings(scene, solution)),
+        outside=film_outside(scene, solution),
     )

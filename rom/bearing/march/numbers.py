@@ -13,9 +13,11 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.corners import differs
 from roughfilm.rom.bearing.free.film import FreeFilm
+from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.march.course import Duty
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.contact_load import asperity_load
+from roughfilm.rom.bearing.outside import reynolds_numbers
 from roughfilm.rom.cavitation.balance import CAVITY, FIXED
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio
 from roughfilm.rom.cavitation.evaluation.friction import drag_of_rows, radius_between
@@ -79,7 +81,7 @@ class Observer:
             units["torque"] = turning
         units |= dict.fromkeys(self._places, flow) | dict.fromkeys(self._pressures, "Pa")
         units |= {"volume": volume, "volume_rate": flow, "flow_imbalance": "1"}
-        units["cavitated_fraction"] = "1"
+        units |= {"cavitated_fraction": "1", **dict.fromkeys(self.reynolds, "1")}
         if self.heated:
             units |= {"temperature": "degC", "balanced_temperature": "degC"}
         return units | {
@@ -90,6 +92,12 @@ class Observer:
             "force_residual": "1",
             "iterations": "1",
         }
+
+    @cached_property
+    def reynolds(self) -> tuple[str, ...]:
+        """The names of the Reynolds numbers of a film: of sliding, of the flow by pressure, of a shaft's clearance."""
+        shaft = ("reynolds_number_of_clearance",) if isinstance(self.duty.scene.geometry, Shaft) else ()
+        return ("reynolds_number_of_sliding", "reynolds_number_of_pressure", *shaft)
 
     @property
     def _forces(self) -> tuple[str, ...]:
@@ -186,7 +194,9 @@ class Observer:
         lowest = self.duty.scene.lubricant.cavitation_pressure
         values += [float(instant.state.pressure[nodes].max()) + lowest for nodes in self._pressures.values()]
         cavitated = float(film.grid.areas[instant.kind == CAVITY].sum() / film.grid.areas.sum())
-        values += [stored, rate, imbalance, cavitated]
+        found = reynolds_numbers(self.duty.scene, solution)
+        numbers = (found.shear, found.pressure, found.clearance)[: len(self.reynolds)]
+        values += [stored, rate, imbalance, cavitated, *numbers]
         if self.heated:
             values += [moving.now.temperature - ZERO_CELSIUS, moving.balanced - ZERO_CELSIUS]
         values += [moving.step, moving.order, moving.error]

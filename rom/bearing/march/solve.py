@@ -20,11 +20,13 @@ from roughfilm.rom.bearing.march.rough_walls import walls_of
 from roughfilm.rom.bearing.march.series import Numerics, Series, run
 from roughfilm.rom.bearing.march.store import finish, keeper, kept
 from roughfilm.rom.bearing.march.summary import Summary, apart, lengths_of, path_unit, summary_of
+from roughfilm.rom.bearing.outside import ReynoldsNumbers, gas_as_liquid, turbulence
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.solve import FIRST_COARSENING
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.ladder.provenance import code
 from roughfilm.rom.ladder.scene import scene_entries
+from roughfilm.rom.lubricants.compressibility import Incompressible
 
 CELLS = (64, 32)
 """Cells along and across."""
@@ -87,6 +89,7 @@ class March:
     quantities : extremes and means, with uncertainties.
     titles : the titles of the quantities.
     warnings : what to know about the numbers.
+    outside : the ways in which the film is at some time outside the range of the model; errors are then unknown.
     """
 
     scene: Bearing
@@ -100,6 +103,7 @@ class March:
     quantities: Mapping[str, Quantity]
     titles: Mapping[str, str]
     warnings: tuple[str, ...]
+    outside: tuple[str, ...] = ()
 
     @property
     def time(self) -> Array:
@@ -263,10 +267,31 @@ def march_bearing(
         quantities=quantities,
         titles=titles,
         warnings=tuple(warnings),
+        outside=_outside(duty.scene, series),
     )
     if path is not None:
         finish(path, series, entries_of(quantities))
     return march
+
+
+def _outside(scene: Bearing, series: Series) -> tuple[str, ...]:
+    """The ways in which films of a march are outside the range of the model, with the steps at which they are."""
+    columns = ("reynolds_number_of_sliding", "reynolds_number_of_pressure", "reynolds_number_of_clearance")
+    numbers = np.array([series[name] if name in series.units else np.zeros(len(series.rows)) for name in columns])
+    pressure, film = series["pressure_max"], float(series["film_min"].min())
+    fixed = isinstance(scene.lubricant.compressibility, Incompressible)
+
+    def sentences(reynolds: Array, highest: float) -> tuple[str, ...]:
+        shear, driven, clearance = map(float, reynolds)
+        found = turbulence(scene, ReynoldsNumbers(shear=shear, pressure=driven, clearance=clearance))
+        return (*found, *(gas_as_liquid(scene, highest, film) if fixed else ()))
+
+    worst = sentences(numbers.max(axis=1), float(pressure.max()))
+    if not worst:
+        return ()
+    beyond = [one for one, *step in zip(series.time, numbers.T, pressure, strict=True) if sentences(*step)]
+    steps = f"at {len(beyond)} of {len(series.rows)} steps, from {beyond[0]:.4g} s to {beyond[-1]:.4g} s"
+    return tuple(f"{sentence}, {steps}" for sentence in worst)
 
 
 @dataclass(frozen=True, kw_only=True)

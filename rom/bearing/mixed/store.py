@@ -1,5 +1,6 @@
 """Files of Stribeck curves: HDF5 with a digest of the input, and CSV."""
 
+import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
@@ -12,7 +13,7 @@ import numpy as np
 from roughfilm.contact.foundation.checked_hdf5 import open_if_of, write_checked, write_column, write_inputs
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
-from roughfilm.contact.foundation.reading.hdf5_content import Numbers
+from roughfilm.contact.foundation.reading.hdf5_content import Json, Numbers
 from roughfilm.rom.bearing.asperity_contact import FLASH
 from roughfilm.rom.bearing.mixed.stribeck import TEMPERATURES, StribeckCurve, StribeckPoint
 from roughfilm.rom.studies.table import table_beginning
@@ -66,7 +67,8 @@ def save_points(
 
     ``points/`` has a column for each number, NaN for a flash temperature without contact, ``uncertainty/`` a column for
     each estimated uncertainty, NaN where there is none, and ``lift_off/`` a row for each load. Points of several
-    windows have ``scatter/``, ``window_low/`` and ``window_high/`` too.
+    windows have ``scatter/``, ``window_low/`` and ``window_high/`` too. The attribute ``outside`` has the sentences of
+    each point, as JSON.
 
     Raises
     ------
@@ -91,6 +93,7 @@ def save_points(
                     [_of_windows(point, group, name) for point in ordered],
                     UNITS.get(name, "1"),
                 )
+        file.attrs["outside"] = json.dumps([point.outside for point in ordered])
         if curves:
             write_column(file, "lift_off/pressure", [curve.pressure for curve in curves], "Pa")
             write_column(file, "lift_off/speed", [curve.lift_off.speed for curve in curves], "m/s")
@@ -112,6 +115,7 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
             return ()
         numbers = (*NUMBERS, *(name for name in OF_SOME if name in content.names("points")))
         columns = content.take({f"points/{name}": Numbers(shape=ROWS, missing=name in FLASH) for name in numbers})
+        outside = content.one("@outside", Json(kind=tuple[tuple[str, ...], ...]))
         known = [f"uncertainty/{name}" for name in content.names("uncertainty")]
         uncertainties = content.take(
             {name: Numbers(shape=(len(columns["points/speed"]),), missing=True) for name in known}
@@ -124,25 +128,30 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
                 for name, column in uncertainties.items()
                 if not np.isnan(column[row])
             },
+            outside=outside[row],
         )
         for row in range(len(columns["points/speed"]))
     )
 
 
 def write_csv(path: Path, curves: Sequence[StribeckCurve]) -> None:
-    """Write a row for each point with its uncertainties; the first line has names and units."""
+    """Write a row for each point with its uncertainties; the first line has names and units.
+
+    If some points are outside the range of the model, the last column is 1 there.
+    """
     uncertain = sorted({name for curve in curves for point in curve.points for name in point.uncertainty})
     names = numbers_of([point for curve in curves for point in curve.points])
     heads = [f"{name} ({UNITS.get(name, '1')})" for name in names]
     heads += [f"{name} ± ({UNITS.get(name, '1')})" for name in uncertain]
     scattered = _scattered([point for curve in curves for point in curve.points])
     heads += [f"{name}_{group} ({UNITS.get(name, '1')})" for name in scattered for group in SCATTER]
-    lines = [", ".join(heads)]
+    some = any(point.outside for curve in curves for point in curve.points)
+    lines = [", ".join([*heads, "outside_range (1)"] if some else heads)]
     for point in (point for curve in curves for point in curve.points):
         numbers = [_written(_number(point, name)) for name in names]
         numbers += [repr(float(point.uncertainty[name])) if name in point.uncertainty else "" for name in uncertain]
         own = [_of_windows(point, group, name) for name in scattered for group in SCATTER]
-        numbers += [_written(number) for number in own]
+        numbers += [_written(number) for number in own] + ([_written(float(bool(point.outside)))] if some else [])
         lines.append(", ".join(numbers))
     with replacing(path, table_beginning(heads[0])) as scratch:
         scratch.write_text("\n".join(lines) + "\n", encoding="utf-8")

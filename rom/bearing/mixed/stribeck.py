@@ -19,6 +19,7 @@ from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
 from roughfilm.rom.bearing.mixed.search.heated import with_temperature
 from roughfilm.rom.bearing.mixed.search.separation import Search, SeparationSearch, Slopes
 from roughfilm.rom.bearing.mixed.wall import asperities_of
+from roughfilm.rom.bearing.outside import film_outside
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
 from roughfilm.rom.ladder.model import Progress, silent
@@ -101,6 +102,7 @@ class StribeckPoint:
     scatter : for a wall that is known in several windows, the half width of the 95 % confidence interval of a quantity
         by its name, from how the windows differ; it lacks quantities whose scatter is unknown, for one surface all.
     window_interval : 95 % prediction interval of a quantity for a bearing whose wall repeats one further window.
+    outside : the ways in which the film is outside the range of the model; the error of the numbers is then unknown.
     """
 
     pressure: float
@@ -128,6 +130,7 @@ class StribeckPoint:
     uncertainty: Mapping[str, float] = field(default_factory=dict)
     scatter: Mapping[str, float] = field(default_factory=dict)
     window_interval: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    outside: tuple[str, ...] = ()
 
     @property
     def flash(self) -> FlashTemperature | None:
@@ -350,6 +353,7 @@ def stribeck_point(state: MixedState, search: Search, pressure: float) -> Stribe
         cpu_s=0.0,
         temperature=None if heated is None else heated.effective - ZERO_CELSIUS,
         outlet_temperature=None if heated is None else heated.outlet - ZERO_CELSIUS,
+        outside=film_outside(state.scene, state.solution),
     )
 
 

@@ -218,7 +218,8 @@ def _mean_point(own: Sequence[StribeckPoint], independent: float) -> StribeckPoi
     means |= {name: float(np.mean([getattr(point, name) for point in own])) for name in _heated(own)}
     averages = _averages(own, independent)
     uncertainty = {name: one.uncertainty for name, one in averages.items() if one.uncertainty is not None}
-    return with_scatter(StribeckPoint(**means, uncertainty=uncertainty), own, independent)
+    outside = tuple(dict.fromkeys(reason for point in own for reason in point.outside))
+    return with_scatter(StribeckPoint(**means, uncertainty=uncertainty, outside=outside), own, independent)
 
 
 def _averages(own: Sequence[StribeckPoint], independent: float) -> dict[str, WindowAverage]:

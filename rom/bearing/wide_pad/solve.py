@@ -10,6 +10,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.timing import working_time
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.rom.bearing.outside import channel_outside
 from roughfilm.rom.bearing.quantities import EXACT
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.totals.reported import in_order
@@ -22,7 +23,6 @@ from roughfilm.rom.ladder.model import Effect, Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, Numerics, Result, SolverRun, with_uncertainties
-from roughfilm.rom.parts.laminar import turbulence_warnings
 from roughfilm.rom.thin_film import newton, thin_film
 from roughfilm.rom.thin_film.basis import gauss_basis, sliding_wall_slope
 from roughfilm.rom.thin_film.newton import MODES, ThinFilm
@@ -37,12 +37,16 @@ MIN_CELLS = 12
 
 @dataclass(frozen=True, kw_only=True)
 class _Level:
-    """The film of a pad on one grid; pressures above ambient at the faces and shear stresses in the cells, Pa."""
+    """The film of a pad on one grid; pressures above ambient at the faces and shear stresses in the cells, Pa.
+
+    ``through`` is the flow through the pad, m²/s.
+    """
 
     strip: Strip
     film: ThinFilm
     pressure: Array
     shear: Array
+    through: float
     quantities: dict[str, Quantity]
 
 
@@ -68,7 +72,6 @@ def solve(solver: Model[Bearing], scene: Bearing, request: CheckedRequest, progr
     warnings = [
         *_grid_warnings(scene, finest.strip),
         *rupture_warnings(finest.pressure - scene.lubricant.cavitation_pressure),
-        *turbulence_warnings(_reynolds_number(scene)),
         *newton.mode_warnings(finest.film.state.amplitudes, newton.MODES),
     ]
     uncertainty = _uncertainty([finest, *coarser])
@@ -91,6 +94,9 @@ def solve(solver: Model[Bearing], scene: Bearing, request: CheckedRequest, progr
         ),
         provenance=provenance(scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources),
         warnings=tuple(warnings),
+        outside=channel_outside(
+            scene, finest.strip.thickness * scene.geometry.thinnest, finest.through, finest.pressure
+        ),
     )
 
 
@@ -124,6 +130,7 @@ def _level(
         film=film,
         pressure=pressure,
         shear=shear,
+        through=flow,
         quantities=pad_quantities(
             scene,
             load=float(metre @ (pressure[1:] + pressure[:-1]) / 2),

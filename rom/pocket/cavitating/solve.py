@@ -17,7 +17,7 @@ from roughfilm.rom.pocket.cavitating.cells import cell_fields, cell_film, cell_q
 from roughfilm.rom.pocket.cavitating.grooves import groove_fields, groove_problem, groove_quantities
 from roughfilm.rom.pocket.plan.grid import columns_across, require_resolved
 from roughfilm.rom.pocket.scene import Pocket
-from roughfilm.rom.pocket.validity.warnings import cautions, inertia_warnings, steep_warnings
+from roughfilm.rom.pocket.validity.warnings import inertia_warnings, steep_warnings
 
 IMBALANCE_FACTOR = 10.0
 """Relative error of a quantity over the relative error of the flow along the film."""
@@ -52,7 +52,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         for name, quantity in levels[0].items():
             of_grid = grid_uncertainty([*map(cells_of, grids)], [level[name].value for level in levels])
             uncertainty[name] = of_grid + IMBALANCE_FACTOR * solution.imbalance * abs(quantity.value)
-    warnings = [*cautions(scene), *grid_warnings(solution), *([] if uncertainty else [NO_COARSER_GRID])]
+    warnings = [*grid_warnings(solution), *([] if uncertainty else [NO_COARSER_GRID])]
     warnings += edge_warnings(scene, solution)
     warnings += (*steep_warnings(scene), *inertia_warnings(scene)) if scene.in_plan else ()
     return Result(

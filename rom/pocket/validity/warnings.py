@@ -1,7 +1,6 @@
 """Warnings where a pocket leaves the range of validity of a model."""
 
 from roughfilm.rom.cavitation.shape import CELLS_PER_FEATURE
-from roughfilm.rom.parts.laminar import turbulence_warnings
 from roughfilm.rom.parts.surroundings import rupture_warnings
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, numbers
@@ -28,11 +27,6 @@ SECOND_ORDER = 1.0
 The load differs from that with full inertia by at most 0.8 % of the largest pressure in 38 of these cells below this
 ratio, and by up to 16 % in 18 above it.
 """
-
-
-def cautions(scene: Pocket) -> tuple[str, ...]:
-    """The warnings for every model."""
-    return turbulence_warnings(scene.reynolds_number)
 
 
 def ruptures(scene: Pocket, lowest: float) -> tuple[str, ...]:

@@ -247,6 +247,7 @@ def _point_entries(scene: Bearing, point: DynamicPoint) -> dict[str, Any]:
     entries: dict[str, Any] = {name: getattr(point, name) for name in OPERATION}
     entries |= {name: finite(value) for name, value in point.numbers.items()}
     entries["uncertainty"] = {name: finite(value) for name, value in point.uncertainty.items()}
+    entries["outside"] = list(point.outside)
     if "critical_mass" in point.numbers:
         entries["stable_at_any_mass"] = point.numbers["critical_mass"] == float("inf")
     return entries | dimensionless_of(scene, point)

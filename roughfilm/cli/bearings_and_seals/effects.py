@@ -26,6 +26,7 @@ from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.effects import AT_FILM, UNDER_LOAD, cell, sentences, shown_quantities
 from roughfilm.words.numbers import finite_entries
+from roughfilm.words.outside import outside_in_words
 
 EXAMPLES = ("roughfilm effects scripts/examples/scenes/pad.toml --out pad",)
 
@@ -102,11 +103,16 @@ def _entries(analysis: EffectAnalysis) -> dict[str, Any]:
         "inertia_under_load": inertia and {**asdict(inertia), "thicker": thicker},
         "provenance": origin(
             SOURCES,
-            dict.fromkeys(warning for study in _studies(analysis) for warning in study.warnings),
+            dict.fromkeys(warning for study in _studies(analysis) for warning in _warnings(study)),
             scene=scene_entries(analysis.scene),
         ),
     }
     return {name: finite_entries(one) for name, one in entries.items()}
+
+
+def _warnings(study: EffectStudy) -> list[str]:
+    beyond = outside_in_words(study.outside)
+    return [*([beyond] if beyond else []), *study.warnings]
 
 
 def _study_entries(study: EffectStudy) -> dict[str, Any]:
@@ -115,6 +121,7 @@ def _study_entries(study: EffectStudy) -> dict[str, Any]:
         "contributions": [asdict(contribution) for contribution in study.contributions],
         "full": {name: asdict(amount) for name, amount in study.full.items()},
         "unsolved": dict(study.unsolved),
+        "outside": list(study.outside),
     }
 
 
@@ -125,7 +132,9 @@ def _in_words(analysis: EffectAnalysis) -> str:
     known = [one for one in study.contributions if name in one.on]
     most = max(known, key=lambda one: abs(one.on[name].value), default=None)
     part = "" if most is None else f"; {most.name} changes it most, by {cell(most.on[name], how, sign=True)} {how.unit}"
-    return f"load {cell(study.full[name], how)} {how.unit} {analysis.which_film}{part}"
+    beyond = outside_in_words(study.outside)
+    before = f"{beyond}; " if beyond else ""
+    return f"{before}load {cell(study.full[name], how)} {how.unit} {analysis.which_film}{part}"
 
 
 def _shown(analysis: EffectAnalysis) -> Iterator[Table | str]:

@@ -28,6 +28,7 @@ from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.terminal.scenes import bearing_of
 from roughfilm.words.march import headline, rows_of
+from roughfilm.words.outside import outside_in_words
 
 EXAMPLES = (
     "roughfilm march scripts/examples/scenes/engine_bearing.toml --out engine",
@@ -112,7 +113,7 @@ def command(
         yield table_of(["quantity", "value", "unit"], list(rows_of(march.quantities, march.titles)))
         yield f"from {march.first:.4g} s to {march.last:.4g} s; {march.state}"
 
-    answer = f"{headline(march.quantities)}; {march.state}"
+    answer = "; ".join(filter(None, [outside_in_words(march.outside), headline(march.quantities), march.state]))
     summary = written(answer, page, stored, stored.with_suffix(".csv"))
     show_result({**entries, "report": str(page)}, shown(), as_json=as_json, reused="steps", summary=summary)
 
@@ -127,6 +128,7 @@ def march_entries(march: March) -> dict[str, Any]:
         "last": march.last,
         "state": march.state,
         "settled": march.settled,
+        "outside": list(march.outside),
         "units": dict(series.units),
         "numerics": {
             "steps": len(series.rows),
@@ -138,8 +140,13 @@ def march_entries(march: March) -> dict[str, Any]:
             "force_residual": float(series["force_residual"].max()),
             "flow_imbalance": float(abs(series["flow_imbalance"]).max()),
         },
-        "provenance": origin(SOURCES, march.warnings, scene=scene_entries(march.scene)),
+        "provenance": origin(SOURCES, _warnings(march), scene=scene_entries(march.scene)),
     }
+
+
+def _warnings(march: March) -> list[str]:
+    beyond = outside_in_words(march.outside)
+    return [*([beyond] if beyond else []), *march.warnings]
 
 
 def _time(text: str) -> float:

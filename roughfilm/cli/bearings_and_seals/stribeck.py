@@ -55,6 +55,7 @@ from roughfilm.words.stribeck import (
     hottest_spots,
     lift_off,
     lift_off_scatter,
+    outside_warnings,
     scatter_of,
     speed_scale,
 )
@@ -206,8 +207,9 @@ def command(
 
     least = min(map(_least_friction, curves), key=lambda point: point.friction_coefficient)
     at = f"{speed_scale(bearing).factor * least.speed:.4g} {speed_scale(bearing).unit}"
+    beyond = " (outside the range of the model, error unknown)" if least.outside else ""
     answer = "; ".join(
-        [*at_own_speed(bearing, curves), f"least friction coefficient {least.friction_coefficient:.4f} at {at}"]
+        [*at_own_speed(bearing, curves), f"least friction coefficient {least.friction_coefficient:.4f} at {at}{beyond}"]
     )
     summary = written(answer, page, stored.with_suffix(".csv"))
     show_result({**entries, "report": str(page)}, shown(), as_json=as_json, reused="points", summary=summary)
@@ -264,6 +266,7 @@ def curve_entries(
         for curve in curves
         if (missing := len(speeds) - len(curve.points))
     ]
+    warnings += outside_warnings(scene, curves)
     warnings += scene.lubricant.left_out_heat
     warnings += flash_warnings_of(scene, points)
     if cells is not None and scene.asperities is not None and scene.asperities.solid_heat is not None:
@@ -306,6 +309,7 @@ def _point_entries(point: StribeckPoint, names: Sequence[str], *, scattered: boo
     numbers = {name: getattr(point, name) for name in names}
     entries: dict[str, Any] = {name: None if one is None else finite(one) for name, one in numbers.items()}
     entries["uncertainty"] = {name: finite(value) for name, value in point.uncertainty.items()}
+    entries["outside"] = list(point.outside)
     if scattered:
         entries["scatter"] = {name: finite(value) for name, value in point.scatter.items()}
         entries["window_interval"] = {name: list(ends) for name, ends in point.window_interval.items()}

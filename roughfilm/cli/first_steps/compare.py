@@ -46,7 +46,7 @@ from roughfilm.terminal.console import (
 from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.results import print_all, print_left_out, quantity_table, table_of
 from roughfilm.words.cost import cost_in_words
-from roughfilm.words.headline import outside_in_words
+from roughfilm.words.outside import outside_in_words
 from roughfilm.words.summary import judgement, value_of
 
 EXAMPLES = (
@@ -96,7 +96,7 @@ def command(
             if found
         ]
         tables_of_results = map(quantity_table, report.results.values())
-        outside = [f"{name}: {outside_in_words(one)}" for name, one in report.results.items() if one.outside]
+        outside = [f"{name}: {outside_in_words(one.outside)}" for name, one in report.results.items() if one.outside]
         warnings = [f"warning: {warning}" for result in report.results.values() for warning in result.warnings]
         print_all((*tables_of_results, *tables, _error_table(report), *outside, *dict.fromkeys(warnings), *pairs))
     print_left_out(absent)
@@ -146,7 +146,7 @@ def _summary(report: Report, out: Path) -> str:
     tolerance, page = percent(DEFAULT_TOLERANCE), out / "report.html"
     value = f"{value_of(top, first)} by {top.model}"
     if top.outside:
-        return f"{outside_in_words(top)}; {value}; {cost_in_words(top)}; page: {page}"
+        return f"{outside_in_words(top.outside)}; {value}; {cost_in_words(top)}; page: {page}"
     error = stated_errors(top).get(first)
     if error is not None and error.error > DEFAULT_TOLERANCE:
         return f"{value}; {judgement(top, first, DEFAULT_TOLERANCE)}; {cost_in_words(top)}; page: {page}"

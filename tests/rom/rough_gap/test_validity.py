@@ -5,10 +5,11 @@ from functools import cache
 import numpy as np
 import pytest
 
-from roughfilm.ladder import find
+from roughfilm.ladder import find, models
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.rough_gap.flow.corrected import slope_corrected
 from roughfilm.rom.rough_gap.flow.exact import sinusoidal_ridge_flow
+from roughfilm.rom.rough_gap.kind import KIND
 from roughfilm.rom.rough_gap.walls import Walls
 
 NAMES = ("smooth_gap", "homogenized", "slope_corrected")
@@ -16,9 +17,9 @@ SILENT_ERROR = 0.011
 """Largest relative error beyond the uncertainty that may have no warning, a little above the threshold of warnings."""
 
 
-def solved(name, amplitude, wavelength):
+def gap(amplitude, wavelength):
     geometry = {"surface": "sinusoid", "amplitude": f"{10 * amplitude} um", "wavelength": f"{10 * wavelength} um"}
-    scene = read_scene(
+    return read_scene(
         {
             "name": "wave",
             "kind": "rough_gap",
@@ -27,7 +28,10 @@ def solved(name, amplitude, wavelength):
             "flow": {"reynolds_number": 0.01},
         }
     )
-    return find("rough_gap", name).solve(scene)
+
+
+def solved(name, amplitude, wavelength):
+    return find("rough_gap", name).solve(gap(amplitude, wavelength))
 
 
 exact_flow = cache(sinusoidal_ridge_flow)
@@ -73,3 +77,14 @@ def test_the_uncertainty_of_the_slope_correction_is_a_few_times_its_error():
                 ratios.append(found.uncertainty.pressure[i, i] / abs(found.corrected.pressure[i, i] - true))
     assert min(ratios) > 1
     assert np.median(ratios) < 5
+
+
+@pytest.mark.parametrize("model", models("rough_gap"), ids=lambda model: model.name)
+def test_no_model_of_a_gap_holds_beyond_the_laminar_limit(model):
+    """Re = ρq/η above 1300 (Carlson et al. 1982), or 2ρq/η of the sliding that has the same flow above 1440."""
+    scene = gap(0.05, 40.0)
+    for number, words in ((700, []), (730, ["shear flow"]), (1310, ["pressure drives", "shear flow"])):
+        fast = scene.model_copy(update={"flow": scene.flow.model_copy(update={"reynolds_number": float(number)})})
+        found = KIND.outside(fast, model, None)
+        assert len(found) == len(words)
+        assert all(word in one for word, one in zip(words, found, strict=True))

@@ -323,3 +323,28 @@ def test_an_answer_without_error_bar_says_so(name, tmp_path):
     assert found.quantities["leakage_per_width"].uncertainty is None
     assert found.quantities["permeability"].uncertainty is None
     assert any("no coarser grid" in warning for warning in found.warnings)
+
+
+@pytest.mark.parametrize("model", RUNGS, ids=lambda model: model.name)
+def test_a_gas_in_a_seal_is_not_taken_as_a_liquid_in_silence(model):
+    """An isothermal gas leaks ρ K (p₁² - p₂²)/(2 η L p) with the density ρ at the pressure p."""
+    helium = scene_entries(seal()) | {"liquid": {"density": "0.166 kg/m^3", "viscosity": "19.6 uPa*s"}}
+    for drop, ratios in ((2e5, (1 + 2e5 / 2 / 101325, (2 * 101325 + 2e5) / 2 / (101325 + 2e5))), (100.0, None)):
+        scene = read_scene({**helium, "flow": {**helium["flow"], "pressure_drop": f"{drop} Pa"}})
+        found = model.solve(scene, Request(resolution=32 if model.name != "effective_medium" else None))
+        if ratios is None:
+            assert found.outside == ()
+            continue
+        (reason,) = found.outside
+        assert f"{ratios[0]:.4g} times as much, with this density at the inlet {ratios[1]:.4g} times" in reason
+        assert advise(scene, [model], quantity="leakage_per_width", within=0.5).chosen is None
+
+
+def test_a_leakage_beyond_the_laminar_limit_promises_nothing():
+    thin = scene_entries(seal(pressure="20 kPa")) | {"liquid": {"density": "1000 kg/m^3", "viscosity": "1 nPa*s"}}
+    found = find("seal", "effective_medium").solve(read_scene(thin))
+    number = found["leakage_per_width"].value / 1e-9
+    assert number > 1300
+    assert found.outside == (
+        f"Re = ρq/η = {number:.4g} exceeds 1300, above which the flow that pressure drives is turbulent",
+    )

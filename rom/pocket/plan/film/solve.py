@@ -21,7 +21,7 @@ from roughfilm.rom.pocket.plan.grid import require_resolved
 from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.promise import promise_warnings
-from roughfilm.rom.pocket.validity.warnings import cautions, ruptures, steep_warnings
+from roughfilm.rom.pocket.validity.warnings import ruptures, steep_warnings
 from roughfilm.rom.thin_film.basis import even_basis, gauss_basis, sliding_wall_slope
 from roughfilm.rom.thin_film.continuation import continued
 from roughfilm.rom.thin_film.newton import mode_warnings
@@ -230,7 +230,6 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             scheme=request.scheme,
         ),
         warnings=(
-            *cautions(scene),
             *promise_warnings(scene, solver.name),
             *steep_warnings(scene),
             *mode_warnings(film.flow.along, MODES),

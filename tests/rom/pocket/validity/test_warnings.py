@@ -3,9 +3,11 @@
 import pytest
 
 import roughfilm as rf
-from roughfilm.ladder import find
+from roughfilm.ladder import find, models
+from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.advice.laws import on_grid, table
 from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.rom.pocket.kind import KIND
 from roughfilm.rom.pocket.validity.numbers import numbers
 from roughfilm.rom.pocket.validity.warnings import cancellations
 
@@ -68,10 +70,36 @@ def cell(reynolds_number, **dimple):
         ("inertial_reynolds", cell(1), None),
         ("inertial_reynolds", cell(150), "higher orders are left out"),
         ("inertial_reynolds", cell(0.001, width="0.1 mm", depth="60 um"), "the film over it is not thin"),
-        ("reynolds", cell(1500), "turbulent"),
-        ("inertial_reynolds", cell(1500), "turbulent"),
     ],
 )
 def test_models_in_plan_warn_where_they_leave_their_range(model, scene, words):
     warnings = find("pocket", model).solve(scene).warnings
     assert warnings == () if words is None else any(words in one for one in warnings)
+
+
+@pytest.mark.parametrize("model", models("pocket"), ids=lambda model: model.name)
+def test_no_model_of_a_pocket_holds_beyond_the_laminar_limit(model):
+    """Re = ρuh/η of the film, and in a long groove of the film in it, above 1440 (Tillmark and Alfredsson 1992)."""
+
+    def scene(reynolds_number, width="0.3 mm"):
+        groove = {"profile": "cylindrical", "width": width, "depth": "30 um"}
+        geometry = {"length": "20 mm", "film": "30 um", **groove}
+        return read_scene({**CANCELLING, "geometry": geometry, "motion": {"reynolds_number": reynolds_number}})
+
+    for own, beyond in ((scene(1400), False), (scene(1500), True), (scene(700, "10 mm"), False)):
+        assert bool(KIND.outside(own, model, None)) == beyond
+    (reason,) = KIND.outside(scene(800, "10 mm"), model, None)
+    assert "Re = ρuh/η = 1600 exceeds 1440" in reason
+    assert advise(scene(1500), [model], quantity="load_plus", within=0.5).chosen is None
+
+
+def test_a_pocket_of_a_gas_says_so():
+    """Of air in place of a liquid; pressures of 0.1 p_a change its density by 0.1."""
+    groove = {"length": "1 mm", "film": "3 um", "profile": "cylindrical", "width": "0.3 mm", "depth": "3 um"}
+    air = {**CANCELLING, "geometry": groove, "lubricant": {"viscosity": "18.5 uPa*s", "density": "1.2 kg/m^3"}}
+    fast = read_scene({**air, "motion": {"speed": "100 m/s"}})
+    found = find("pocket", "reynolds").solve(fast)
+    share = max(abs(found[name].value) for name in ("pressure_max_plus", "pressure_min_plus"))
+    share *= fast.pressure_unit / fast.plus_factor / 101325
+    assert [one for one in found.outside if f"pressures differ from ambient by {share:.2g} p_a" in one]
+    assert not find("pocket", "reynolds").solve(read_scene({**air, "motion": {"speed": "0.01 m/s"}})).outside
