@@ -44,7 +44,8 @@ def wheel(tmp_path_factory) -> Path:
 def wheel_of_archive(tmp_path_factory) -> Path:
     place = tmp_path_factory.mktemp("archive")
     with tarfile.open(built(ROOT, "sdist", place / "sdist")) as archive:
-        archive.extractall(place / "tree", filter="data")
+        archive.extraction_filter = getattr(tarfile, "data_filter", None)  # since Python 3.11.4
+        archive.extractall(place / "tree")
     (tree,) = (place / "tree").iterdir()
     return built(tree, "wheel", place / "wheel")
 
