@@ -62,12 +62,13 @@ class Batch:
             "MOODY_NOTES": str(tmp_path / "notes"),
             "MOODY_SECONDS": str(seconds),
             "MOODY_MEGABYTES": str(megabytes),
+            "PYTHONPATH": str(MOODY),
         }
         self.temporary = tmp_path / "tmp"
         self.temporary.mkdir(exist_ok=True)
         notes["TMPDIR"] = str(self.temporary)
         self.process = subprocess.Popen(
-            [sys.executable, str(MOODY / "cli.py"), "batch", str(study), "--out", str(out), *map(str, arguments)],
+            [sys.executable, "-m", "roughfilm.cli.main", "batch", str(study), "--out", str(out), *map(str, arguments)],
             env={**os.environ, **notes, name: value, **dict(environment)},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,

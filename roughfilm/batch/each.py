@@ -1,10 +1,11 @@
 """One call for each of several items, in this process or in several processes of this machine."""
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import as_completed
+from concurrent.futures import BrokenExecutor, as_completed
 from typing import Any, TypeVar
 
 from roughfilm.batch.executors import local
+from roughfilm.contact.foundation.errors import UnavailableError
 from roughfilm.contact.foundation.writing.scratch import scratch_directory
 from roughfilm.rom.ladder.model import Progress
 
@@ -25,7 +26,7 @@ def for_each(
 
     Raises
     ------
-    BrokenExecutor
+    UnavailableError
         If a process dies.
     Exception
         The first error of a call; what the other calls have written is kept.
@@ -45,6 +46,9 @@ def for_each(
         futures = [executor.submit(call, *one) for one in arguments]
         done(0)
         for number, future in enumerate(as_completed(futures), start=1):
-            future.result()
+            try:
+                future.result()
+            except BrokenExecutor:
+                raise UnavailableError(f"{words}: a process died; if memory is short, give fewer processes") from None
             done(number)
         return [future.result() for future in futures]

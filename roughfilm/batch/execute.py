@@ -37,6 +37,9 @@ WATCH_S = 1.0
 ONE_AT_A_TIME = threading.Lock()
 """Held while jobs run: a worker of dask may have several threads, but models and CPU times are those of a process."""
 
+WORKER_DIED = "WorkerDied"
+"""The kind of the failure of a job whose worker died twice."""
+
 GONE = "the scheduler is gone; what is stored stays, start again"
 
 QuestionT = TypeVar("QuestionT")
@@ -73,8 +76,10 @@ def expected_cost(job: Job) -> float:
     return job.setting.cost(job.scene) + STORING_S
 
 
-def run(jobs: Sequence[Job], workers: Workers) -> Iterator[tuple[Job, Answer]]:
+def run(jobs: Sequence[Job], workers: Workers | None) -> Iterator[tuple[Job, Answer]]:
     """Send every job to a worker and yield each job with its answer, in the order of the answers.
+
+    Without workers this process solves the jobs.
 
     An error in one job does not stop the others. If a worker dies, or has not what a job needs, the jobs of its chunk
     are sent again one by one; a job to which this happens twice has failed.
@@ -86,13 +91,16 @@ def run(jobs: Sequence[Job], workers: Workers) -> Iterator[tuple[Job, Answer]]:
     UnavailableError
         If the scheduler of the workers stops, or all workers are gone.
     """
+    if workers is None:
+        yield from ((job, _answer(job.scene, job.setting)) for job in jobs)
+        return
     origin = (code(), versions())
 
     def send(chunk: list[Job], again: bool) -> Future[list[Answer]]:
         questions = [_question(job) for job in chunk]
         return workers.executor(questions[0][-1] if again else None).submit(ask, questions, origin)
 
-    return answered(chunks(jobs), send, lost, workers)
+    yield from answered(chunks(jobs), send, lost, workers)
 
 
 def answered(
@@ -166,7 +174,16 @@ def lost(error: BaseException) -> Failure:
     if isinstance(error, UnavailableError):
         return failure_of(error)
     message = f"its worker died twice ({type(error).__name__}); if memory is short, run fewer jobs at a time"
-    return Failure(kind="WorkerDied", message=message)
+    return Failure(kind=WORKER_DIED, message=message)
+
+
+def refuse_lost(failures: Sequence[Failure], count: int, words: str) -> None:
+    """Raise UnavailableError if a worker died on one of ``count`` ``words``, such as "jobs"."""
+    died = [failure for failure in failures if failure.kind == WORKER_DIED]
+    if died:
+        raise UnavailableError(
+            f"{len(died)} of {count} {words}: {died[0].message}; what is solved stays, the same call goes on"
+        )
 
 
 def chunks(jobs: Iterable[Job]) -> Iterator[list[Job]]:

@@ -3,17 +3,19 @@
 import multiprocessing
 import os
 import signal
+import sys
 import tempfile
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Future, ThreadPoolExecutor
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
 from functools import cache, partial
 from multiprocessing import forkserver
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from multiprocessing.util import Finalize, get_temp_dir
 from pathlib import Path
+from types import ModuleType
 from typing import Any, Self
 
 from roughfilm.contact.foundation.writing.scratch import scratch_directory, temporary_directory
@@ -24,6 +26,13 @@ THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 MAX_SOCKET_PLACE = 40
 """Length of the path of a temporary directory above which sockets are in /tmp; Linux allows them 107 bytes."""
+
+
+MOST_PROCESSES = 1024
+"""Largest number of processes that is accepted."""
+
+_STARTING = threading.Lock()
+"""Held while a process starts."""
 
 
 class Processes(ThreadPoolExecutor):
@@ -75,7 +84,8 @@ class Processes(ThreadPoolExecutor):
     def _start(self) -> None:
         pipe, far_end = self._context.Pipe()
         process = self._context.Process(target=_work, args=(far_end, self._alive, self._scratch), daemon=True)
-        process.start()
+        with _without_program():
+            process.start()
         far_end.close()  # otherwise the pipe would stay open after the end of the process
         self._own.pipe, self._own.process = pipe, process
         self._started.append(process)
@@ -106,6 +116,21 @@ def _place_socket() -> None:
         tempfile.tempdir = before
 
 
+@contextmanager
+def _without_program() -> Iterator[None]:
+    """Hide the program that runs from processes that start, which would else run its file again.
+
+    They need nothing of it, and a short program has no ``if __name__ == "__main__"``.
+    """
+    with _STARTING:
+        program = sys.modules["__main__"]
+        sys.modules["__main__"] = ModuleType("__main__")
+        try:
+            yield
+        finally:
+            sys.modules["__main__"] = program
+
+
 def _kill(process: ForkServerProcess) -> None:
     """Kill a process and its children, even if the process itself has ended."""
     assert process.pid is not None
@@ -120,6 +145,11 @@ def local(count: int, scratch: Path) -> Iterator[Processes]:
         os.environ.setdefault(name, "1")
     with Processes(count, scratch) as executor:
         yield executor
+
+
+def workers(processes: int, scratch: Path) -> AbstractContextManager[Processes | None]:
+    """Context manager of so many processes of this machine; of None, for this process, if one is asked."""
+    return nullcontext() if processes == 1 else local(processes, scratch)
 
 
 def _work(pipe: Connection, alive: Connection, scratch: Path) -> None:

@@ -48,7 +48,7 @@ def finished(study: Study, tasks: Tasks, counts: BatchProgress) -> tuple[dict[Pa
 
 
 def solved_table(
-    study: Study, out: Path, counts: BatchProgress, place: AbstractContextManager[Workers], progress: Progress
+    study: Study, out: Path, counts: BatchProgress, place: AbstractContextManager[Workers | None], progress: Progress
 ) -> None:
     """Solve the missing jobs of a study, store each answer immediately, and write ``table.csv`` and ``table.h5``.
 
@@ -59,7 +59,7 @@ def solved_table(
     study : the study.
     out : directory of the results and tables.
     counts : progress of the batch, which is updated.
-    place : context manager of the workers; it is entered only if jobs are missing.
+    place : context manager of the workers, of None for this process; it is entered only if jobs are missing.
     progress : called with the done fraction and a few words.
 
     Raises

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from roughfilm.batch.directory import CASES, put_scene
-from roughfilm.batch.execute import Solved, run
+from roughfilm.batch.execute import Solved, Workers, run
 from roughfilm.batch.jobs import Failure, Job, failure_of, store, stored
 from roughfilm.batch.plan import TO_COME
 from roughfilm.batch.progress import BatchProgress
@@ -54,7 +54,7 @@ class Collection:
     edited: list[tuple[str, str, tuple[str, ...]]] = field(default_factory=list)
 
 
-def collect(out: Path, place: AbstractContextManager[Any], progress: Progress) -> Collection:
+def collect(out: Path, place: AbstractContextManager[Workers | None], progress: Progress) -> Collection:
     """Collect the results of the generated cases in a directory, and write ``table.csv`` and ``table.h5``.
 
     A case that has finished is read and checked as the runs of this library are, and its result is stored where
@@ -64,7 +64,7 @@ def collect(out: Path, place: AbstractContextManager[Any], progress: Progress) -
     Parameters
     ----------
     out : the directory of the manifest.
-    place : context manager of the workers, for models that do not run OpenFOAM.
+    place : context manager of the workers, or of None for this process, for models that do not run OpenFOAM.
     progress : called with the done fraction and a few words.
 
     Raises

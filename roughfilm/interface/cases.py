@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 
 from roughfilm import ladder
 from roughfilm.batch.directory import alone
-from roughfilm.batch.executors import local
+from roughfilm.batch.execute import refuse_lost
+from roughfilm.batch.executors import MOST_PROCESSES, workers
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.ranges import whole_in_range
 from roughfilm.foamcases.openfoam.dialect import dialect_named
 from roughfilm.foamcases.openfoam.installation import dialect_here
 from roughfilm.foamcases.openfoam.model import CaseModel
@@ -195,7 +197,7 @@ def collect_study(
     Parameters
     ----------
     out : the directory that :func:`roughfilm.write_study` wrote; its cases may still run.
-    processes : number of processes for the models that need no OpenFOAM.
+    processes : number of processes for the models that need no OpenFOAM; 1 is this process.
     progress : called with the done fraction and a few words.
 
     Returns
@@ -208,6 +210,8 @@ def collect_study(
     ------
     InputError
         If the directory holds no manifest of this version, is in use, or cannot be written.
+    UnavailableError
+        If a process that solves a case dies twice; what is solved is kept.
 
     Examples
     --------
@@ -218,8 +222,10 @@ def collect_study(
     ...     print(error)
     docs: holds no manifest.json; name a directory that 'roughfilm generate' wrote
     """
+    processes = whole_in_range("processes", processes, 1, MOST_PROCESSES)
     place = Path(out)
     read_manifest(place)
     with alone(place) as scratch:
-        collect(place, local(processes, scratch), progress)
+        found = collect(place, workers(processes, scratch), progress)
+    refuse_lost([failure for _, failure in found.progress.failures], len(found.study.cases), "cases")
     return read_table(place / "table.h5")

@@ -57,7 +57,7 @@ def stribeck(
     windows : several windows in place of the surface of the scene, as :func:`roughfilm.windows` returns them, or a list
         of surfaces.
     resolution : number of cells along and across the bearing, 16 to 1024.
-    processes : number of processes that solve windows; more than 1 need ``if __name__ == "__main__":`` in a program.
+    processes : number of processes that solve windows; 1 is this process.
     progress : called with the done fraction and a few words.
 
     Returns
@@ -246,7 +246,7 @@ def leakage_curve(
         of surfaces.
     directory : directory of the contacts and rows, from which a stopped series continues; by default nothing is kept.
     threads : number of gaps whose flow is solved at the same time; by default 2, or 1 on a machine with one core.
-    processes : number of processes that solve windows; more than 1 need ``if __name__ == "__main__":`` in a program.
+    processes : number of processes that solve windows; 1 is this process.
     progress : called with the done fraction and a few words.
 
     Returns

@@ -8,10 +8,12 @@ from numpy.typing import NDArray
 
 from roughfilm import ladder
 from roughfilm.batch.directory import alone
-from roughfilm.batch.executors import local
+from roughfilm.batch.execute import refuse_lost
+from roughfilm.batch.executors import MOST_PROCESSES, workers
 from roughfilm.batch.progress import BatchProgress
 from roughfilm.batch.solve import solved_table
-from roughfilm.contact.foundation.errors import InputError, unwritable
+from roughfilm.contact.foundation.errors import unwritable
+from roughfilm.contact.foundation.ranges import whole_in_range
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.studies import study, table
 
@@ -59,7 +61,7 @@ def run_study(
     ----------
     path : the study file (TOML), as :func:`roughfilm.load_study` reads it.
     out : directory of the cases, results and tables; finished results in it are used again.
-    processes : number of processes; by default one for each core.
+    processes : number of processes; by default one for each core. With 1 this process solves the cases.
     progress : called with the done fraction and a few words.
 
     Returns
@@ -72,6 +74,8 @@ def run_study(
     InputError
         If the study is wrong, or the directory is in use or cannot be written. A case that fails does not stop the
         others: the column "outcome" holds the reason.
+    UnavailableError
+        If a process that solves a case dies twice, for want of memory or by a signal; what is solved is kept.
 
     Examples
     --------
@@ -83,15 +87,16 @@ def run_study(
     (24, {'solved'})
     """
     processes = len(os.sched_getaffinity(0)) if processes is None else processes
-    if isinstance(processes, bool) or not isinstance(processes, int) or processes < 1:
-        raise InputError(f"processes: got {processes!r}; give a whole number, 1 or more")
+    processes = whole_in_range("processes", processes, 1, MOST_PROCESSES)
     loaded, place = load_study(path), Path(out)
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise unwritable(f"out: {place}", error, done="made") from error
+    counts = BatchProgress()
     with alone(place) as scratch:
-        solved_table(loaded, place, BatchProgress(), local(processes, scratch), progress)
+        solved_table(loaded, place, counts, workers(processes, scratch), progress)
+    refuse_lost([failure for _, failure in counts.failures], len(loaded.cases) * len(loaded.settings), "jobs")
     return read_table(place / "table.h5")
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from roughfilm.batch.executors import local
+from roughfilm.batch.executors import MOST_PROCESSES, workers
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.ranges import in_range, whole_in_range
 from roughfilm.contact.foundation.writing.scratch import scratch_directory
@@ -24,9 +24,6 @@ from roughfilm.sampling.run import examined
 
 TOLERANCES = math.nextafter(0.0, 1.0), math.nextafter(1.0, 0.0)
 """Smallest and largest tolerance of a mean."""
-
-MOST_PROCESSES = 1024
-"""Largest number of processes."""
 
 
 def windows(
@@ -63,8 +60,7 @@ def windows(
     gap : mean gap, m, at which flow factors are added without a scene.
     sealing : whether the load is sought at which each window of a seal closes.
     tolerance : relative tolerance of the mean for which ``needed`` counts windows.
-    processes : number of processes; 1 computes in this one. With more, a program must begin its work under
-        ``if __name__ == "__main__":``, as each process imports it.
+    processes : number of processes; 1 computes in this one.
     progress : called with the done fraction and a few words.
 
     Returns
@@ -129,6 +125,5 @@ def windows(
             asked = asked_of(scene if isinstance(scene, Scene) else Path(scene), first, sealing=sealing)
         if sealing and asked.kind != "seal":
             raise InputError("sealing: got True; it needs a scene of the kind seal")
-        place = None if processes == 1 else local(processes, scratch)
-        rows = examined(plan, asked, directory=None, place=place, progress=progress)
+        rows = examined(plan, asked, directory=None, place=workers(processes, scratch), progress=progress)
     return answer_of(plan, asked, rows, tolerance)

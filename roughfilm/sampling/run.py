@@ -6,7 +6,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 
-from roughfilm.batch.execute import CHUNK_S, Workers, answered, lost
+from roughfilm.batch.execute import CHUNK_S, Workers, answered, lost, refuse_lost
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import code, versions
@@ -46,7 +46,7 @@ def examined(
     asked: Asked,
     *,
     directory: Path | None,
-    place: AbstractContextManager[Workers] | None,
+    place: AbstractContextManager[Workers | None],
     progress: Progress,
 ) -> Rows:
     """The rows of all windows; each new row is stored as soon as it is there.
@@ -56,7 +56,8 @@ def examined(
     plan : the windows.
     asked : what is computed for each.
     directory : directory of the rows; None keeps none.
-    place : context manager of the workers, which is entered only if rows are missing; None for this process.
+    place : context manager of the workers, or of None for this process; it is entered only if rows are
+        missing.
     progress : called with the done fraction and a few words.
 
     Raises
@@ -64,7 +65,7 @@ def examined(
     InputError
         If a row cannot be written; stored rows are kept, and the same call continues with the missing ones.
     UnavailableError
-        If the scheduler of the workers stops, or all workers are gone.
+        If the scheduler of the workers stops, all workers are gone, or one dies twice on the same window.
     """
     cells = [cell for group in plan.groups for cell in group.cells]
     identities = [identity_of(cell, asked) for cell in cells]
@@ -88,10 +89,7 @@ def examined(
 
     progress(0.0, f"{found} of {len(cells)} windows")
     try:
-        if missing and place is None:
-            for number in missing:
-                keep(number, row_of(cells[number], asked))
-        elif missing and place is not None:
+        if missing:
             with place as workers:
                 for number, row in _computed(missing, costs, cells, asked, workers):
                     keep(number, row)
@@ -99,6 +97,7 @@ def examined(
         if directory is not None:
             stop.add_note(f"stopped at {len(rows)} of {len(cells)} windows; the same command goes on")
         raise
+    refuse_lost([row.failure for row in rows.values() if row.failure is not None], len(cells), "windows")
     if directory is not None:
         remove_other_rows(identities, directory)
     ordered = iter([rows[number] for number in range(len(cells))])
@@ -110,9 +109,12 @@ def examined(
 
 
 def _computed(
-    missing: list[int], costs: dict[int, float], cells: list[Surface], asked: Asked, workers: Workers
+    missing: list[int], costs: dict[int, float], cells: list[Surface], asked: Asked, workers: Workers | None
 ) -> Iterator[tuple[int, Row]]:
-    """Send the windows in chunks, the most expensive first."""
+    """Send the windows in chunks, the most expensive first; without workers this process computes them."""
+    if workers is None:
+        yield from ((number, row_of(cells[number], asked)) for number in missing)
+        return
     origin = (code(), versions())
 
     def chunks() -> Iterator[list[int]]:
@@ -129,4 +131,4 @@ def _computed(
         return workers.executor().submit(rows_of, [cells[one] for one in chunk], asked, origin)
 
     no_row: Callable[[BaseException], Row] = lambda error: Row(quantities={}, failure=lost(error))  # noqa: E731
-    return answered(chunks(), send, no_row, workers)
+    yield from answered(chunks(), send, no_row, workers)

@@ -1,6 +1,7 @@
 """The quantities of each window are those of the models, and a run that stops goes on with what is finished."""
 
 import math
+from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -45,7 +46,7 @@ def plan(place):
 
 
 def rows_of(plan, asked, directory=None, workers=None, progress=lambda *_: None):
-    return examined(plan, asked, directory=directory, place=workers, progress=progress)
+    return examined(plan, asked, directory=directory, place=workers or nullcontext(), progress=progress)
 
 
 def test_a_window_of_a_seal_has_the_answers_of_the_models(plan, place):

@@ -21,19 +21,18 @@ lubricant = { viscosity = "0.01 Pa*s", density = "1000 kg/m^3" }
 motion = { reynolds_number = [10, 20, 40, 80] }
 study = { models = ["inertial_reynolds", "film"] }
 """
-if __name__ == "__main__":  # run_study starts processes, which read this file too
-    with tempfile.TemporaryDirectory() as directory:
-        (file := Path(directory, "study.toml")).write_text(text, encoding="utf-8")
-        cases = rf.load_study(file).cases
-        rf.run_study(file, Path(directory, "out"), processes=1)
-        table = rf.read_table(Path(directory, "out", "table.h5"))
-    fig, ax = plt.subplots(figsize=(6, 4), layout="constrained")
-    load = {}
-    for model, style in (("inertial_reynolds", "--"), ("film", "o-")):
-        for width in (0.2, 0.4):
-            row = (table["model"] == model) & np.isclose(table["width_plus"], width)
-            load[model, width] = table["load_plus"][row]
-            ax.plot(table["reynolds_number"][row], load[model, width], style, label=f"{model}, width {width} mm")
-    ax.set(xlabel="Reynolds number (1)", ylabel="dimensionless load (1)", title="Load of grooves, 15 µm deep")
-    ax.legend()
-    plt.show()
+with tempfile.TemporaryDirectory() as directory:
+    (file := Path(directory, "study.toml")).write_text(text, encoding="utf-8")
+    cases = rf.load_study(file).cases
+    rf.run_study(file, Path(directory, "out"), processes=1)
+    table = rf.read_table(Path(directory, "out", "table.h5"))
+fig, ax = plt.subplots(figsize=(6, 4), layout="constrained")
+load = {}
+for model, style in (("inertial_reynolds", "--"), ("film", "o-")):
+    for width in (0.2, 0.4):
+        row = (table["model"] == model) & np.isclose(table["width_plus"], width)
+        load[model, width] = table["load_plus"][row]
+        ax.plot(table["reynolds_number"][row], load[model, width], style, label=f"{model}, width {width} mm")
+ax.set(xlabel="Reynolds number (1)", ylabel="dimensionless load (1)", title="Load of grooves, 15 µm deep")
+ax.legend()
+plt.show()
