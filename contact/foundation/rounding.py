@@ -1,6 +1,7 @@
 """Numbers as text, to the digits that their uncertainty leaves."""
 
 import math
+import sys
 
 DIGITS = 3
 """Digits of a value without an uncertainty."""
@@ -16,6 +17,11 @@ MIN_PLAIN_UNCERTAINTY = 1e-3
 
 TWO_DIGIT_MANTISSA = 2.0
 """An uncertainty has two digits below this mantissa, else one."""
+
+
+def round_off(size: float, count: int) -> float:
+    """The round-off of a sum of ``count`` parts, whose sizes add up to ``size``: size times count times epsilon."""
+    return size * count * sys.float_info.epsilon
 
 
 def with_error(value: float, uncertainty: float | None) -> str:

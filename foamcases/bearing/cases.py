@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
+from roughfilm.contact.foundation.rounding import round_off
 from roughfilm.foamcases.bearing.case import PadCard
 from roughfilm.foamcases.bearing.fields import PadFlow, read_pad
 from roughfilm.foamcases.bearing.units import pressure_difference, velocity_unit
@@ -44,6 +45,7 @@ def read(solver: Model[Bearing], scene: Bearing, directory: Path, run: Run) -> R
                 inlet_flow=float(through[0]),
                 outlet_flow=float(through[-1]),
                 pressure_max=outlet + highest * pascal,
+                rounding=round_off(max(abs(lowest), abs(highest)) * pascal + abs(outlet), through.size),
             ),
         ),
         fields=_fields(scene, flow, speed, pascal),

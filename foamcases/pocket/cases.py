@@ -35,6 +35,7 @@ def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Res
             pressure_max=highest,
             pressure_min=lowest,
             backflow=channel.back_flow(),
+            parts=channel.wall_pressure.size,
         ),
         fields={
             "position": Field(values=channel.position * film, unit="m"),

@@ -15,6 +15,7 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.supply.quantities import supply_values
 from roughfilm.rom.bearing.totals.least_film import least_film
 from roughfilm.rom.bearing.totals.pads import of_pad
+from roughfilm.rom.bearing.totals.rounding import film_round_off
 from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio, filled_fraction
 from roughfilm.rom.cavitation.evaluation.flows import flow_across, flow_along
@@ -25,9 +26,6 @@ from roughfilm.rom.cavitation.solve import Solution
 
 EXACT = ("film_min", "film_min_x", "film_min_y")
 """Quantities that follow from the geometry alone and have no error of the grid."""
-
-ROUND_OFF = 1e-14
-"""Friction over the sum of the sizes of the forces across the film below which it is round-off."""
 
 MIN_MEAN_PRESSURE_RATIO = 1e-6
 """Mean pressure over the maximum pressure below which no friction coefficient is given."""
@@ -69,9 +67,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     drag = drag_of_rows(solution)
     rows = drag.rows + boundary
     load, resistance = load_of(scene, scene_positions(solution), force), float(rows.sum() + drag.between.sum())
-    if abs(resistance) <= ROUND_OFF * float(np.abs(force).sum()):
-        resistance = 0.0
-        rows = np.zeros_like(rows) if problem.speed == 0 else rows
+    rounding = film_round_off(scene, solution)["N"]
     row = int(np.argmax(np.where(solution.kind == FILM, solution.state.pressure, -1.0).max(axis=0)))
     start, end = film_ends(solution, row)
     flows = boundary_flows(solution)
@@ -111,9 +107,10 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
     values |= {f"{name}_per_width": (value / width, unit) for name, (value, _, unit) in extensive.items()}
     values |= supply_values(scene, solution)
     if isinstance(scene.geometry, Journal):
-        values["attitude_angle"] = (journal_load(scene.geometry, scene_positions(solution), force)[0], "deg")
+        if load > rounding:
+            values["attitude_angle"] = (journal_load(scene.geometry, scene_positions(solution), force)[0], "deg")
     elif isinstance(scene.geometry, Lobes):
-        values |= _of_shaft(scene.geometry, scene_positions(solution), force)
+        values |= _of_shaft(scene.geometry, scene_positions(solution), force, rounding)
         if any(scene.geometry.misalignment):
             values |= shaft_moments(scene.geometry, scene_positions(solution), grid.y, force)
         values["film_min_angle"] = (
@@ -124,7 +121,7 @@ def bearing_quantities(scene: Bearing, solution: Solution, pressed: Array | None
             values = {name: value for name, value in values.items() if name not in ("film_start", "rupture")}
     elif isinstance(scene.geometry, Tilting):
         values |= of_pad(scene.geometry, scene_positions(solution), grid.y, force)
-    if load > MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum()) * float(np.abs(force / grid.areas).max()):
+    if load > max(rounding, MIN_MEAN_PRESSURE_RATIO * float(grid.areas.sum() * np.abs(force / grid.areas).max())):
         values["friction_coefficient"] = (resistance / load, "1")
         values |= {name: (number, "1") for name, number in numbers_of_load(scene, specific).items()}
     return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
@@ -328,8 +325,11 @@ def shaft_force(geometry: Lobes, x: Array, force: Array) -> tuple[float, float]:
     return -float((force * np.cos(angle)).sum()), -float((force * np.sin(angle)).sum())
 
 
-def _of_shaft(geometry: Lobes, x: Array, force: Array) -> dict[str, tuple[float, str]]:
-    """The place of a shaft in lobes: its eccentricity, and the angle from the load it carries, in its rotation."""
+def _of_shaft(geometry: Lobes, x: Array, force: Array, rounding: float) -> dict[str, tuple[float, str]]:
+    """The place of a shaft in lobes: its eccentricity, and the angle from the load it carries, in its rotation.
+
+    A force not larger than ``rounding``, N, has no direction.
+    """
     along_x, along_y = geometry.eccentricity or (0.0, 0.0)
     push_x, push_y = shaft_force(geometry, x, force)
     values = {
@@ -338,8 +338,7 @@ def _of_shaft(geometry: Lobes, x: Array, force: Array) -> dict[str, tuple[float,
         "eccentricity_y": (along_y, "1"),
     }
     values |= {f"tilt_{pad + 1}": (tilt, "rad") for pad, tilt in enumerate(geometry.tilts or ())}
-    pushed = math.hypot(push_x, push_y) > ROUND_OFF * float(np.abs(force).sum())
-    if pushed and math.hypot(along_x, along_y):
+    if math.hypot(push_x, push_y) > rounding and math.hypot(along_x, along_y):
         turned = math.atan2(along_y, along_x) - math.atan2(-push_y, -push_x)
         values["attitude_angle"] = (abs(math.degrees(math.remainder(turned, 2 * math.pi))), "deg")
     return values

@@ -25,6 +25,7 @@ from roughfilm.rom.bearing.quantities import EXACT, FILM_OUTPUTS, Fields, Output
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.supply.quantities import supply_warnings
 from roughfilm.rom.bearing.totals.reported import in_order
+from roughfilm.rom.bearing.totals.rounding import NO_LOAD, beyond_rounding
 from roughfilm.rom.bearing.totals.whole import whole_bearing
 from roughfilm.rom.bearing.uncertainty import POSITIONS, beyond_half_a_turn, uncertainties
 from roughfilm.rom.bearing.warnings import (
@@ -156,11 +157,12 @@ def solve(
         explained |= {*turned}
     if unknown := [name for name, value in uncertainty.items() if not math.isfinite(value) and name not in explained]:
         warnings.append(f"{', '.join(unknown)}: unknown uncertainty, as the roughness has too few points")
+    known = beyond_rounding(found.scene, solution, with_uncertainties(quantities, uncertainty))
+    if known["load_per_width"].value == 0:
+        warnings.append(NO_LOAD)
     return Result(
         model=solver.name,
-        quantities=in_order(
-            scene, whole_bearing(found.scene, {**with_uncertainties(quantities, uncertainty), **estimated})
-        ),
+        quantities=in_order(scene, whole_bearing(found.scene, {**known, **estimated})),
         fields=_fields(scene, solution, outputs.fields(found.scene, solution)),
         numerics=numerics_of(
             solution,

@@ -8,13 +8,11 @@ import numpy as np
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import unknown_by_infinite_flows
 from roughfilm.rom.bearing.quantities import EXACT, scene_positions
+from roughfilm.rom.bearing.totals.rounding import IMBALANCE_FACTOR
 from roughfilm.rom.cavitation.balance import FILM
 from roughfilm.rom.cavitation.evaluation.fronts import front_uncertainties
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_uncertainty
 from roughfilm.rom.cavitation.solve import Solution
-
-IMBALANCE_FACTOR = 10.0
-"""Relative error of a quantity over the relative error of the flow along the film."""
 
 POSITIONS = ("film_start", "rupture")
 """Quantities that are positions x/L."""

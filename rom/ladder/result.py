@@ -213,13 +213,23 @@ class Result:
 
 
 def with_uncertainties(quantities: Mapping[str, Quantity], uncertainties: Mapping[str, float]) -> dict[str, Quantity]:
-    """The quantities with uncertainties in their units; uncertainties that are not finite are left out."""
+    """The quantities with uncertainties in their units; uncertainties that are not finite are left out.
+
+    One that a quantity has already, by its round-off, remains if it is larger.
+    """
     return {
-        name: replace(quantity, uncertainty=uncertainties[name])
+        name: replace(quantity, uncertainty=max(uncertainties[name], quantity.uncertainty or 0.0))
         if math.isfinite(uncertainties.get(name, math.inf))
         else quantity
         for name, quantity in quantities.items()
     }
+
+
+def beyond_round_off(quantity: Quantity, rounding: float) -> Quantity:
+    """The quantity, or 0 ± its round-off, in its unit, if it is not larger than that."""
+    if abs(quantity.value) > rounding:
+        return quantity
+    return Quantity(value=0.0, unit=quantity.unit, uncertainty=max(rounding, quantity.uncertainty or 0.0))
 
 
 def with_finite_numbers(result: Result) -> Result:

@@ -61,6 +61,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         pressure_max=flow.highest,
         pressure_min=flow.lowest,
         backflow=film_flow.back_flow(film.h, q),
+        parts=film.h.size,
     )
     pascal = scene.pressure_unit
     return Result(

@@ -6,8 +6,10 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from roughfilm.contact.foundation.entries import InUnit, Part, PositiveNumber
+from roughfilm.contact.foundation.rounding import round_off
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import Scene
+from roughfilm.rom.ladder.result import beyond_round_off
 from roughfilm.rom.parts.fluid import Fluid
 from roughfilm.rom.parts.surroundings import GaugePressure, Surroundings
 from roughfilm.rom.pocket.geometry import AnyGroove, PocketGeometry
@@ -206,20 +208,30 @@ TITLES = {
 
 
 def pocket_quantities(
-    scene: Pocket, *, load: float, friction: float, pressure_max: float, pressure_min: float, backflow: float
+    scene: Pocket,
+    *,
+    load: float,
+    friction: float,
+    pressure_max: float,
+    pressure_min: float,
+    backflow: float,
+    parts: int,
+    offset: float = 0.0,
 ) -> dict[str, Quantity]:
     """The quantities of a pocket scene from forces per area and pressures in units of η u / Ly.
 
     p+ = 100 p Ly² / (η u Lx) with p = 0 at the periodic boundary. Load and friction have the same scale, per area of
     the sliding wall, so that smooth parallel walls have friction_plus = 100 Ly / Lx. ``backflow`` is a speed ratio.
+    The load is the mean of ``parts`` pressures, whose zero was moved by ``offset``; below their round-off it is 0.
     """
     plus, pascal = scene.plus_factor, scene.pressure_unit
+    rounding = round_off(max(abs(pressure_max), abs(pressure_min)) + abs(offset), parts)
     return {
-        "load_plus": Quantity(value=load * plus, unit="1"),
+        "load_plus": beyond_round_off(Quantity(value=load * plus, unit="1"), rounding * plus),
         "friction_plus": Quantity(value=friction * plus, unit="1"),
         "pressure_max_plus": Quantity(value=pressure_max * plus, unit="1"),
         "pressure_min_plus": Quantity(value=pressure_min * plus, unit="1"),
-        "load_per_area": Quantity(value=load * pascal, unit="Pa"),
+        "load_per_area": beyond_round_off(Quantity(value=load * pascal, unit="Pa"), rounding * pascal),
         "friction_per_area": Quantity(value=friction * pascal, unit="Pa"),
         "backflow": Quantity(value=backflow, unit="1"),
     }

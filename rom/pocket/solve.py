@@ -60,6 +60,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             pressure_max=highest,
             pressure_min=lowest,
             backflow=float(max(0.0, -slowest)),
+            parts=middle.size,
         ),
         fields={
             "position": Field(values=film.centres * gap.film, unit="m"),

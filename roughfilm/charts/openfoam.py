@@ -133,6 +133,7 @@ def pocket_load(scene: Pocket, resolution: int) -> Measured:
             pressure_max=greatest,
             pressure_min=least,
             backflow=channel.back_flow(),
+            parts=channel.wall_pressure.size,
         )
         spent = time.thread_time() - started
     return Measured(

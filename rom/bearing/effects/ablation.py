@@ -21,7 +21,7 @@ from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Outputs
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import thinning
 from roughfilm.rom.bearing.thermal.heat_balance import Heated
-from roughfilm.rom.bearing.uncertainty import IMBALANCE_FACTOR
+from roughfilm.rom.bearing.totals.rounding import IMBALANCE_FACTOR
 from roughfilm.rom.bearing.warnings import scene_warnings
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty, grid_warnings
 from roughfilm.rom.cavitation.problem import Problem

@@ -4,13 +4,21 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.quantities import numbers_of_load
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.totals.least_film import least_film
+from roughfilm.rom.ladder.result import beyond_round_off
 
 MIN_LOAD_OVER_PRESSURE = 1e-6
 """Mean pressure over the largest one below which no friction coefficient is given."""
 
 
 def pad_quantities(
-    scene: Bearing, *, load: float, friction: float, inlet_flow: float, outlet_flow: float, pressure_max: float
+    scene: Bearing,
+    *,
+    load: float,
+    friction: float,
+    inlet_flow: float,
+    outlet_flow: float,
+    pressure_max: float,
+    rounding: float,
 ) -> dict[str, Quantity]:
     """The quantities of a film without cavities, as those of the Reynolds equation.
 
@@ -20,6 +28,7 @@ def pad_quantities(
     friction : force on the sliding wall against its motion, N/m.
     inlet_flow, outlet_flow : flow in through the end where the wall enters, and out where it leaves, m²/s.
     pressure_max : largest pressure above ambient on the sliding wall, Pa.
+    rounding : round-off of the pressure, Pa.
     """
     geometry, specific = scene.geometry, load / scene.nominal_area
     least = least_film(geometry, turned=scene.motion.speed < 0)
@@ -34,7 +43,9 @@ def pad_quantities(
         "specific_load": (specific, "Pa"),
         "film_min_x": (least.x, "m"),
     }
-    if specific > MIN_LOAD_OVER_PRESSURE * abs(pressure_max):
+    if specific > max(rounding, MIN_LOAD_OVER_PRESSURE * abs(pressure_max)):
         values["friction_coefficient"] = (friction / load, "1")
         values |= {name: (number, "1") for name, number in numbers_of_load(scene, specific).items()}
-    return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
+    found = {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
+    sizes = {"load_per_width": rounding * scene.nominal_area, "specific_load": rounding, "pressure_max": rounding}
+    return found | {name: beyond_round_off(found[name], size) for name, size in sizes.items()}

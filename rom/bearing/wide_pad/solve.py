@@ -8,12 +8,14 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.foundation.rounding import round_off
 from roughfilm.contact.foundation.timing import working_time
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.outside import channel_outside
 from roughfilm.rom.bearing.quantities import EXACT
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.totals.reported import in_order
+from roughfilm.rom.bearing.totals.rounding import NO_LOAD
 from roughfilm.rom.bearing.warnings import rupture_warnings
 from roughfilm.rom.bearing.wide_pad.gap import pad_gap
 from roughfilm.rom.bearing.wide_pad.quantities import pad_quantities
@@ -74,6 +76,8 @@ def solve(solver: Model[Bearing], scene: Bearing, request: CheckedRequest, progr
         *rupture_warnings(finest.pressure - scene.lubricant.cavitation_pressure),
         *newton.mode_warnings(finest.film.state.amplitudes, newton.MODES),
     ]
+    if finest.quantities["load_per_width"].value == 0:
+        warnings.append(NO_LOAD)
     uncertainty = _uncertainty([finest, *coarser])
     if not uncertainty:
         warnings.append(NO_COARSER_GRID)
@@ -124,6 +128,7 @@ def _level(
     pressure = inlet + film.pressure * pascal
     shear = pascal * (1 + thin_film.all_amplitudes(strip, across, film.state) @ sliding_wall_slope(MODES))
     shear /= strip.thickness
+    parts = float(np.abs(pressure).max()) + 6 * pascal * float((strip.lengths / strip.thickness**2).sum())
     metre, flow = strip.lengths * gap.film, film.state.flow * abs(scene.motion.speed) * gap.film
     return _Level(
         strip=strip,
@@ -138,6 +143,7 @@ def _level(
             inlet_flow=flow,
             outlet_flow=flow,
             pressure_max=float(pressure.max()),
+            rounding=round_off(parts, cells) + parts * cells * film.residual,
         ),
     )
 

@@ -47,6 +47,8 @@ def groove_quantities(scene: Pocket, solution: Solution) -> dict[str, Quantity]:
             pressure_max=(peak_pressure(solution) + scene.cavitation_pressure) / pascal,
             pressure_min=float(pressure.min()) / pascal,
             backflow=film_flow.back_flow(thickness, _flow(scene, solution)),
+            parts=pressure.size,
+            offset=scene.cavitation_pressure / pascal,
         ),
         **cavity_quantities(solution),
     }

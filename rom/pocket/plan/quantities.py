@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.rounding import round_off
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.ladder.result import Field
+from roughfilm.rom.ladder.result import Field, beyond_round_off
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 
 
@@ -94,12 +95,20 @@ def plan_quantities(
         pressure_max=highest - zero,
         pressure_min=lowest - zero,
         backflow=backflow,
+        parts=wall.pressure.size,
+        offset=zero,
     )
-    of_corner = mean - wall.corner
+    of_corner, size = mean - wall.corner, max(abs(lowest), abs(highest)) + abs(wall.corner)
+    rounding = round_off(size, wall.pressure.size)
     return {
         **found,
-        "load_from_corner_plus": Quantity(value=of_corner * scene.plus_factor, unit="1"),
-        "load_from_corner_per_area": Quantity(value=of_corner * scene.pressure_unit, unit="Pa"),
+        **{
+            name: beyond_round_off(Quantity(value=of_corner * factor, unit=unit), rounding * factor)
+            for name, factor, unit in (
+                ("load_from_corner_plus", scene.plus_factor, "1"),
+                ("load_from_corner_per_area", scene.pressure_unit, "Pa"),
+            )
+        },
     }
 
 
