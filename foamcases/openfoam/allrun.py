@@ -21,6 +21,9 @@ ALLRUN = "Allrun"
 FINISHED = "finished"
 """Name of the file that ``Allrun`` writes at its end, with its exit code."""
 
+DIGESTS = "digests.sha256"
+"""Name of the file that ``Allrun`` writes at its end, with the digest of every file of the case."""
+
 EXIT_CODE = "Allrun: exit code"
 """Words before the exit code of a program in the last line of its log."""
 
@@ -284,7 +287,7 @@ if [ -n "$first" ]; then
     esac
 fi
 lock
-rm -f finished
+rm -f finished digests.sha256
 status=0
 if [ -n "$first" ]; then
     cd "$first" || exit 1
@@ -298,7 +301,10 @@ if [ -n "$first" ]; then
 fi
 """
 
-FOOT = """\
+FOOT = f"""\
+if command -v sha256sum > /dev/null; then
+    find . -type f ! -path './running/*' ! -name '.*' -exec sha256sum {{}} + > .digests && mv .digests {DIGESTS}
+fi
 echo "$status" > .finished && mv .finished finished
 exit "$status"
 """

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from roughfilm.contact.foundation.errors import InputError, Outcome
 from roughfilm.contact.foundation.reading.regular import read_bytes
-from roughfilm.foamcases.openfoam.allrun import EXIT_CODE, FINISHED, RUNNING, SETTLED
+from roughfilm.foamcases.openfoam.allrun import DIGESTS, EXIT_CODE, FINISHED, RUNNING, SETTLED
 from roughfilm.foamcases.openfoam.dialect import Family, Release, dialect_named
 from roughfilm.foamcases.openfoam.iterate import Asked, Settled, Try, second, tried
 from roughfilm.foamcases.openfoam.program import Ended, failure
@@ -36,6 +36,20 @@ BANNER_LENGTH = 2000
 def is_finished(directory: Path) -> bool:
     """Whether ``Allrun`` of a case has come to its end, with success or without."""
     return (directory / FINISHED).is_file()
+
+
+def exit_code(directory: Path) -> str:
+    """The exit code that ``Allrun`` of a case wrote at its end, as text."""
+    return _text(directory / FINISHED).strip()
+
+
+def digests_at_end(directory: Path) -> dict[str, str]:
+    """The SHA-256 digest of each file of a case at the end of its run, by its path; empty if ``Allrun`` took none."""
+    path = directory / DIGESTS
+    if not path.is_file():
+        return {}
+    pairs = (line.partition(" ") for line in _text(path).splitlines())
+    return {name.lstrip(" *").removeprefix("./"): digest for digest, _, name in pairs}
 
 
 def runner(directory: Path) -> str:

@@ -204,8 +204,13 @@ def _case(base: Mapping[str, Any], values: Mapping[Key, Any], labels: Mapping[Ke
     except InputError as error:
         faults = [f"case {label}: {line}" if varied else line for line in str(error).splitlines()]
         raise InputError("\n".join(faults)) from None
-    digest = hashlib.sha256(json.dumps(scene_entries(scene), sort_keys=True).encode()).hexdigest()[:16]
+    digest = digest_of_entries(scene_entries(scene))
     return Case(name=f"{label}-{digest}", digest=digest, scene=scene, varied=varied)
+
+
+def digest_of_entries(entries: Mapping[str, Any]) -> str:
+    """The first 16 hexadecimal digits of the SHA-256 digest of the complete entries of a scene."""
+    return hashlib.sha256(json.dumps(entries, sort_keys=True).encode()).hexdigest()[:16]
 
 
 def _portable(value: object) -> str:

@@ -14,10 +14,11 @@ from roughfilm.batch.plan import TO_COME
 from roughfilm.batch.progress import BatchProgress
 from roughfilm.batch.tabulate import TableRow, columns, row_of, warned
 from roughfilm.contact.foundation.errors import InputError, Outcome
-from roughfilm.foamcases.openfoam.allrun import FINISHED
+from roughfilm.foamcases.openfoam.allrun import DIGESTS, FINISHED
 from roughfilm.foamcases.openfoam.dialect import dialect_named
-from roughfilm.foamcases.openfoam.kept import is_finished, runner, was_started
+from roughfilm.foamcases.openfoam.kept import digests_at_end, exit_code, is_finished, runner, was_started
 from roughfilm.foamcases.openfoam.model import CaseModel
+from roughfilm.foamcases.openfoam.program import failure
 from roughfilm.generated.edits import edits_of
 from roughfilm.generated.manifest import Generated, Manifest, digest, read_manifest
 from roughfilm.rom.ladder.model import Progress
@@ -131,7 +132,7 @@ def _collected(manifest: Manifest, generated: Generated, job: Job, out: Path, fo
         edits: tuple[str, ...] = ()
         try:
             edits = _edits(manifest, generated, job, directory)
-            answer: Result | Failure = _judged(manifest, job, directory, before, edits)
+            answer: Result | Failure = _judged(manifest, generated, job, directory, before, edits)
         except Exception as error:  # a case in any state is a failure of this case alone
             failed = failure_of(error)
             message = "; ".join((failed.message, *_edited(edits)))
@@ -210,12 +211,26 @@ def _edited(edits: Sequence[str]) -> list[str]:
     return [f"the case was edited: {'; '.join(edits)}"] if edits else []
 
 
-def _judged(manifest: Manifest, job: Job, directory: Path, state: str, edits: Sequence[str]) -> Result:
-    """The result of a case that has finished, with a warning for each way in which it is not what was generated."""
+def _judged(
+    manifest: Manifest, generated: Generated, job: Job, directory: Path, state: str, edits: Sequence[str]
+) -> Result:
+    """The result of a case that has finished, with a warning for each way in which it is not what was generated.
+
+    ConvergenceError if ``Allrun`` failed, or a file that it left is another one by now.
+    """
     model = job.setting.model
     assert isinstance(model, CaseModel)
     result = model.bounded(job.scene, model.read(job.scene, directory, model.kept_run(directory)))
+    if (code := exit_code(directory)) != "0":
+        raise failure(f"Allrun ended with the exit code {code:.20}; see its logs, and run the case again", "")
+    known = digests_at_end(directory)
+    changed = [name for name, one in known.items() if name not in generated.files and digest(directory / name) != one]
+    if changed:
+        more = f" and {len(changed) - 1} more" if len(changed) > 1 else ""
+        raise failure(f"{changed[0]}{more} was changed after the run; run the case again", "")
     warnings = [*_edited(edits), *result.warnings]
+    if not known:
+        warnings.append(f"there is no {DIGESTS}, so whether the results are those of the run is not known")
     if manifest.settings[job.setting.name].code != result.provenance["code"]:
         warnings.append("the case was written by another version of roughfilm than the one that read its result")
     origin: Mapping[str, Any] = {**result.provenance, COLLECTED: {"state": state, "edits": list(edits)}}

@@ -1,9 +1,10 @@
 """The manifest of generated cases, ``manifest.json``: study, scenes, options, and the digests of all written files."""
 
 import hashlib
+import json
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +15,14 @@ from roughfilm.contact.foundation.reading.regular import opened, read_bytes
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.ladder.setting import Setting
-from roughfilm.rom.studies.study import Case, Study
+from roughfilm.rom.studies.study import Case, Study, digest_of_entries
 
 MANIFEST = "manifest.json"
 
 INPUTS = "inputs"
 """Directory with copies of the files that the scenes name, such as surfaces."""
 
-VERSION = 1
+VERSION = 2
 """Version of the manifest that is written and read."""
 
 MAX_MANIFEST_BYTES = 1_000_000_000
@@ -81,6 +82,7 @@ class Manifest:
     cases : the cases by name; the name of the only case of a scene is empty.
     inputs : the copy, relative to the manifest, of each file that a scene names.
     generated : the cases that were written.
+    digest : the SHA-256 digest of all other entries.
     """
 
     version: int
@@ -93,6 +95,12 @@ class Manifest:
     cases: Mapping[str, GeneratedCase]
     inputs: Mapping[str, str]
     generated: Sequence[Generated]
+    digest: str = ""
+
+    @property
+    def expected_digest(self) -> str:
+        """The digest that these entries have."""
+        return hashlib.sha256(json.dumps(asdict(replace(self, digest="")), sort_keys=True).encode()).hexdigest()
 
     def study(self, out: Path) -> Study:
         """The study; a file that a scene names and that is not on this machine is replaced by its copy below ``out``.
@@ -116,7 +124,7 @@ class Manifest:
 
 def write_manifest(manifest: Manifest, out: Path) -> None:
     """Write a manifest into a directory; InputError if it cannot be written."""
-    write_json(asdict(manifest), out / MANIFEST)
+    write_json(asdict(replace(manifest, digest=manifest.expected_digest)), out / MANIFEST)
 
 
 def read_manifest(out: Path) -> Manifest:
@@ -125,7 +133,7 @@ def read_manifest(out: Path) -> Manifest:
     Raises
     ------
     InputError
-        If there is none, or it is damaged or of another version.
+        If there is none, or it is damaged, edited or of another version.
     """
     path = out / MANIFEST
     if not path.is_file():
@@ -137,12 +145,17 @@ def read_manifest(out: Path) -> Manifest:
         raise InputError(f"{path}: is damaged ({error}); generate the cases again") from error
     if manifest.version != VERSION:
         raise InputError(f"{path}: has version {manifest.version}; this one reads {VERSION}, generate again")
-    if not manifest.cases or {name for one in manifest.cases.values() for name in one.varied} - {*manifest.keys}:
-        raise InputError(f"{path}: is damaged (it lacks cases, or keys of theirs); generate the cases again")
+    unknown = {name for one in manifest.cases.values() for name in one.varied} - {*manifest.keys}
+    if not manifest.cases or not manifest.settings or unknown:
+        raise InputError(f"{path}: is damaged (it lacks cases, settings, or keys of cases); generate the cases again")
     places = [one.directory for one in manifest.generated]
     for name in (*manifest.cases, *manifest.settings, *places, *manifest.inputs.values()):
         if Path(name).is_absolute() or ".." in Path(name).parts or "\0" in name:
             raise InputError(f"{path}: names a place outside of its directory, {name!r:.80}; generate the cases again")
+    if manifest.digest != manifest.expected_digest:
+        edited = [name for name, one in manifest.cases.items() if one.digest != digest_of_entries(one.scene)]
+        what = "the scene" + (f" of the case {edited[0]}" if edited[0] else "") if edited else "an entry"
+        raise InputError(f"{path}: {what} was edited, as its digest says; put the original back, or generate again")
     return manifest
 
 

@@ -31,7 +31,7 @@ from roughfilm.rom.ladder.provenance import model_code
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_entries, named_files, scene_entries
 from roughfilm.rom.ladder.setting import Setting
-from roughfilm.rom.studies.study import Case, Study, load_study
+from roughfilm.rom.studies.study import Case, Study, digest_of_entries, load_study
 
 STUDY = "study.toml"
 """Copy of the study file."""
@@ -69,7 +69,7 @@ def study_of_scene(scene: Scene, request: Request) -> Study:
         for model in models(scene.kind)
         if isinstance(model, CaseModel)
     ]
-    case = Case(name="", digest="", scene=scene, varied={})
+    case = Case(name="", digest=digest_of_entries(scene_entries(scene)), scene=scene, varied={})
     return Study(name=scene.name, keys={}, cases=(case,), settings=tuple(settings))
 
 

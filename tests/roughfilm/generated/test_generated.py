@@ -395,3 +395,53 @@ def test_an_array_of_slurm_runs_all_cases(tmp_path, slurm):
     assert code == 0, found["failures"]
     assert outcomes(out) == ["solved"] * 4
     assert len([*out.glob("slurm-*_*.out")]) == 2
+
+
+def one_case(entries):
+    return next(iter(entries["cases"].values()))
+
+
+@pytest.mark.parametrize(
+    ("edit", "words"),
+    [
+        (
+            lambda entries: next(iter(entries["cases"].values()))["scene"]["geometry"].update(film="31 um"),
+            "the scene of",
+        ),
+        (lambda entries: entries.update(tolerance=1e-3), "an entry"),
+        (lambda entries: entries["generated"][0]["files"].update({"case.json": "0" * 64}), "an entry"),
+        (lambda entries: entries.update(digest=""), "an entry"),
+    ],
+)
+def test_an_edited_manifest_is_refused(tmp_path, edit, words):
+    generate(GROOVES, tmp_path / "out")
+    path = tmp_path / "out" / "manifest.json"
+    entries = json.loads(path.read_text())
+    assert read_manifest(tmp_path / "out").cases
+    edit(entries)
+    path.write_text(json.dumps(entries))
+    done = run("collect", tmp_path / "out")
+    assert done.exit_code == 2
+    message = " ".join(done.stderr.split())
+    assert words in message
+    assert "was edited, as its digest says; put the original back, or generate again" in message
+
+
+@pytest.mark.openfoam
+def test_results_that_are_not_those_of_the_run_are_no_results(solved, tmp_path):
+    _, finished = solved("gaps", GAPS)
+    out = tmp_path / "forged"
+    shutil.copytree(finished, out, symlinks=True)
+    for path in out.glob("cases/*/*.h5"):
+        path.unlink()
+    first, second = (out / one.directory for one in read_manifest(out).generated)
+    along = first / "along"
+    last = max((path for path in along.iterdir() if path.name.isdecimal()), key=lambda path: int(path.name))
+    pressure = FoamFile(last / "p")
+    pressure["internalField"] = 1.5 * np.asarray(pressure["internalField"])
+    (second / "finished").write_text("1\n")
+    code, found = collect(out)
+    assert code == 3
+    messages = [one["message"] for one in found["failures"]]
+    assert f"along/{last.name}/p was changed after the run; run the case again" in messages[0]
+    assert "Allrun ended with the exit code 1; see its logs" in messages[1]
