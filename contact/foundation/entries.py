@@ -1,6 +1,7 @@
 """Building blocks of tables in TOML files: numbers with units, and tables that refuse unknown keys."""
 
 import math
+import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -129,10 +130,15 @@ def in_folder(entry: Any, folder: Path) -> Any:
 
 
 def file_name(entry: object) -> object:
-    """The name of a file: one that :func:`in_folder` marks is relative to its folder, unless it begins with "~"."""
-    if not isinstance(entry, FileText):
-        return entry
-    return str(entry) if entry.startswith("~") else str(entry.folder / entry)
+    """The name of a file: one that :func:`in_folder` marks is relative to its folder, unless it begins with "~".
+
+    ValueError if there is no such user.
+    """
+    if isinstance(entry, str) and entry.startswith("~"):
+        if os.path.expanduser(entry) == entry:
+            raise ValueError(f"got {entry!r:.60}, which leads nowhere; there is no such user")
+        return str(entry)
+    return str(entry.folder / entry) if isinstance(entry, FileText) else entry
 
 
 @dataclass(frozen=True)

@@ -215,12 +215,12 @@ class Result:
 def with_uncertainties(quantities: Mapping[str, Quantity], uncertainties: Mapping[str, float]) -> dict[str, Quantity]:
     """The quantities with uncertainties in their units; uncertainties that are not finite are left out.
 
-    One that a quantity has already, by its round-off, remains if it is larger.
+    One that a quantity has already, by its round-off, remains if it is larger, unless the uncertainty is unknown.
     """
     return {
         name: replace(quantity, uncertainty=max(uncertainties[name], quantity.uncertainty or 0.0))
         if math.isfinite(uncertainties.get(name, math.inf))
-        else quantity
+        else replace(quantity, uncertainty=None)
         for name, quantity in quantities.items()
     }
 

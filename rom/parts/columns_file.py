@@ -36,7 +36,7 @@ def read_rows(name: str, columns: Mapping[str, str], *, header: str) -> list[lis
     ValueError
         If the file cannot be read, or a row is invalid.
     """
-    path = Path(name).expanduser()
+    path = Path(name)
     try:
         if file_size(path, "name a file of points") > MAX_BYTES:
             raise InputError(f"{path}: is larger than {MAX_BYTES} bytes; give at most {MAX_ROWS} points")

@@ -136,7 +136,7 @@ class SurfaceGeometry(Part):
 
 def replaced_by(surface: object) -> Sequence[str]:
     """The keys beside a surface that a new one replaces: its digest, and the spacing if the new one has its own."""
-    return "digest", *(() if isinstance(surface, str) and _lacks_spacing(Path(surface).expanduser()) else ("spacing",))
+    return "digest", *(() if isinstance(surface, str) and _lacks_spacing(Path(surface)) else ("spacing",))
 
 
 def _lacks_spacing(path: Path) -> bool:

@@ -1,6 +1,7 @@
 """The round-off of the quantities of a film: sums of pressures and flows that cancel are zero within it."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -62,7 +63,10 @@ def film_round_off(scene: Bearing, solution: Solution) -> dict[str, float]:
 
 
 def beyond_rounding(scene: Bearing, solution: Solution, quantities: Mapping[str, Quantity]) -> dict[str, Quantity]:
-    """The quantities of a film, where those that are not larger than their round-off are 0 ± that."""
+    """The quantities of a film, where those that are not larger than their round-off are 0 ± that.
+
+    One of unknown uncertainty remains so: a grid that does not show the shape of a film shows no load.
+    """
     sizes, width = film_round_off(scene, solution), 1.0 if solution.problem.shape.wide else scene.geometry.width or 1.0
     radius = float(solution.grid.radius.mean()) if solution.problem.shape.polar else 1.0
     sizes |= {"power_loss": sizes["friction"] * abs(solution.problem.speed) * radius}
@@ -72,5 +76,6 @@ def beyond_rounding(scene: Bearing, solution: Solution, quantities: Mapping[str,
         whole = name.removesuffix(PER_WIDTH)
         unit = {"m^2/s": "m^3/s", "N/m": "N"}.get(one.unit, one.unit) if name != whole else one.unit
         size = sizes.get(whole, sizes.get(unit, -1.0)) / (width if name != whole else 1.0)
-        found[name] = beyond_round_off(one, size)
+        zero = beyond_round_off(one, size)
+        found[name] = zero if one.uncertainty is not None else replace(zero, uncertainty=None)
     return found

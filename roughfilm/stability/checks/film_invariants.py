@@ -85,7 +85,7 @@ def bearing(scene: Bearing, result: Result) -> Iterator[str]:
     for name in value.keys() & {"film_start", "rupture", "cavitated_fraction"}:
         if not -ROUND_OFF <= value[name] <= 1 + ROUND_OFF:
             yield f"{name} is {value[name]:.6g}, not a fraction"
-    yield from _loads(scene, value, field)
+    yield from _loads(scene, result, field)
     ambient = scene.boundary == type(scene.boundary)()
     if ambient and scene.motion.speed and not touching and value["friction_per_width"] < 0:
         yield f"the film drives the wall, friction {value['friction_per_width']:.6g} N/m"
@@ -105,7 +105,7 @@ def _most_above(pressure: Array) -> float:
     return float(pressure.max() - nearest.min()) / 4
 
 
-def _loads(scene: Bearing, value: dict[str, float], field: dict[str, Array]) -> Iterator[str]:
+def _loads(scene: Bearing, result: Result, field: dict[str, Array]) -> Iterator[str]:
     """The loads that are not the sum of the pressures on the control volumes, in words; on a shaft vectors add up."""
     x, y = field["x"][:, 0], field["y"][0]
     across = (np.ones(1) if y.size == 1 else control_lengths(y, None)) * (y if isinstance(scene.geometry, Ring) else 1)
@@ -119,12 +119,14 @@ def _loads(scene: Bearing, value: dict[str, float], field: dict[str, Array]) -> 
         forces["contact_load_per_width"] = pressed
     width = 1.0 if y.size == 1 else scene.geometry.width or 1.0
     for name, force in forces.items():
+        stated = result.quantities[name]
+        rounding = stated.uncertainty or 0.0 if stated.value == 0 else 0.0
         total = float(force.sum())
         if isinstance(scene.geometry, Shaft):
             angle = (x / scene.geometry.radius)[:, None]
             total = float(np.hypot((force * np.cos(angle)).sum(), (force * np.sin(angle)).sum()))
-        if abs(total / width - value[name]) > 1e-6 * float(np.abs(force).sum()) / width:
-            yield f"{name} is {value[name]:.9g} N/m, but pressures add up to {total / width:.9g}"
+        if abs(total / width - stated.value) > rounding + 1e-6 * float(np.abs(force).sum()) / width:
+            yield f"{name} is {stated.value:.9g} N/m, but pressures add up to {total / width:.9g}"
 
 
 def _touching(scene: Bearing, value: dict[str, float], field: dict[str, Array]) -> Iterator[str]:

@@ -128,3 +128,9 @@ def test_a_name_may_begin_at_home(folder: Path, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setenv("HOME", str(folder))
     text = BEARING.replace('"a.npy"', '"~/a.npy"').replace('"density.csv"', '"~/density.csv"')
     assert named_files(load_scene(written(folder, text))) == {"~/a.npy", str(folder / "film.npy")}
+
+
+@pytest.mark.parametrize("key", ["geometry.thickness", "roughness.surface", "lubricant.compressibility.table"])
+def test_a_home_that_is_not_there_is_said(folder: Path, key: str) -> None:
+    with pytest.raises(rf.InputError, match=r"~nobody-of-this-name.*leads nowhere; there is no such"):
+        load_scene(written(folder, BEARING), [f"{key}=~nobody-of-this-name/a.npy"])
