@@ -1,7 +1,6 @@
 """Equilibria, stiffness and damping of a bearing over speed and load."""
 
 import math
-import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -9,6 +8,7 @@ from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.timing import imports_apart, working_time
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.dynamics.balance import Equilibrium, balanced_equilibrium, point_of
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, rotation_of
@@ -167,6 +167,7 @@ def at_operation(scene: Bearing, speed: float, pressure: float) -> Bearing:
     )
 
 
+@imports_apart()
 def dynamic_point(
     scene: Bearing,
     walls: Walls,
@@ -183,7 +184,7 @@ def dynamic_point(
     started : an equilibrium near that of the point on each grid, by the coarsening of the grid; replaced by those of
         the point.
     """
-    cpu = time.process_time()
+    cpu = working_time()
     solved = list(_equilibria(scene, walls, resolution, started))
     points = [point_of(one, frequency_ratio) for one in reversed(solved)]
     if points[0].numbers.get("stiffness", 1.0) <= 0:
@@ -213,7 +214,7 @@ def dynamic_point(
         numbers=numbers,
         uncertainty=uncertainty,
         residual=max(instant.residual, instant.force_residual),
-        cpu_s=time.process_time() - cpu,
+        cpu_s=working_time() - cpu,
         outside=film_outside(placed(film, instant), solution),
     )
 
