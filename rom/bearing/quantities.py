@@ -175,7 +175,7 @@ class Flows:
         """The net flow out through both sides; without inlet and supplies what leaves through one side or both."""
         if self.supplied or self.inlet is not None:
             return self.low + self.high
-        return max(self.low, self.high) if self.displaced == 0 else max(self.low, 0.0) + max(self.high, 0.0)
+        return max(self.low, 0.0) + max(self.high, 0.0)
 
 
 def boundary_flows(solution: Solution) -> Flows:

@@ -376,7 +376,8 @@ class Bearing(Scene):
             )
         if boundary.inlet != Inlet() or boundary.outlet != Outlet():
             raise ValueError(f"boundary: got an inlet or outlet, but {pieces} have none; leave it out")
-        if max(boundary.sides.low, boundary.sides.high) <= lowest and not (self.supply or self.motion.approach > 0):
+        fed = self.supply or self.motion.approach > 0 or isinstance(self.geometry, Lobes)  # whose sides refill it
+        if max(boundary.sides.low, boundary.sides.high) <= lowest and not fed:
             raise ValueError(
                 f"boundary.sides: got no pressure above the cavitation pressure of {lowest!r} Pa; {pieces} are "
                 "fed through their sides, raise one of the two, or give [[supply]]"

@@ -139,7 +139,9 @@ def dynamics(
     rotor is stable up to the critical mass M in the bearing; above it, it whirls at the frequency ν with
 
         Mν² = k = (Kxx Byy + Kyy Bxx - Kxy Byx - Kyx Bxy)/(Bxx + Byy),
-        ν² = ((Kxx - k)(Kyy - k) - Kxy Kyx)/det B.
+        ν² = ((Kxx - k)(Kyy - k) - Kxy Kyx)/det B,
+
+    where K and B are those of motions of this frequency: cavities follow them with a delay.
 
     If the lubricant has ``thermoviscosity``, ``density`` and ``heat_capacity``, each film has the one temperature at
     which its heat is balanced, and K and B are those of motions at this temperature, which changes much slower than a
@@ -151,8 +153,8 @@ def dynamics(
     speeds : speeds of the sliding wall, m/s, above 0.
     loads : mean pressures over the nominal area, Pa; by default the load of the scene.
     resolution : number of cells along the film, 32 to 512; half as many are across.
-    frequency_ratio : frequency of the motion over that of the rotation for which pads that tilt, without mass, follow
-        the shaft; 0 to 10.
+    frequency_ratio : frequency of the motion over that of the rotation, of stiffness and damping: cavities, and pads
+        that tilt, without mass, follow the shaft with a delay; 0, slow motions, to 10.
     mass : mass of a rotor in the bearing, kg, whose onset of instability is sought; by default that of the scene.
     progress : called with the done fraction and a few words.
 
@@ -189,7 +191,7 @@ def dynamics(
     """
     if not isinstance(scene, Bearing):
         raise InputError(f"scene: got {_kind(scene)}; give a bearing")
-    sweep.check_bearing(scene)
+    scene = sweep.free_bearing(scene)
     own = scene.load_pressure
     if loads is None and own is None:
         raise InputError("loads: are missing; give them, or a scene with a load")

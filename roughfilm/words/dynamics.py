@@ -7,6 +7,7 @@ from roughfilm.contact.foundation.rounding import with_error
 from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint
 from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve
+from roughfilm.rom.bearing.dynamics.whirl import SAME
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.words.numbers import digits
 from roughfilm.words.outside import outside_in_words, outside_of_series
@@ -14,6 +15,10 @@ from roughfilm.words.stribeck import SpeedScale, speed_scale
 
 STABLE, UNSTABLE = "any", "none"
 """Critical mass of a rotor that is stable at any mass, or at none."""
+
+
+FAST = 2.0
+"""Frequency over the speed up to which a dependence of stiffness and damping on it is said."""
 
 
 def number_of(point: DynamicPoint, name: str, factor: float = 1.0) -> str:
@@ -81,7 +86,18 @@ def answer_of(scene: Bearing, curve: DynamicCurve) -> str:
         words = f"the critical mass of a rigid rotor is unknown on this grid {at}, take more cells"
     else:
         words = f"a rigid rotor is stable up to {mass} kg in the bearing, whirl ratio {whirl_ratio(point)}, {at}"
-    return "; ".join(filter(None, [beyond, words, onset(scene, curve)]))
+    return "; ".join(filter(None, [beyond, words, onset(scene, curve), slow_up_to(point)]))
+
+
+def slow_up_to(point: DynamicPoint) -> str:
+    """From which frequency on stiffness and damping differ from those of slow motions, in words; "" up to ``FAST``."""
+    ratio = point.numbers.get("slow_ratio", FAST)
+    if ratio >= FAST:
+        return ""
+    return (
+        f"stiffness and damping differ by more than {SAME:.0%} from those of slow motions above "
+        f"{number_of(point, 'slow_ratio')} of the speed"
+    ).replace("%", " %")
 
 
 def heat_warnings(scene: Bearing, curves: Sequence[DynamicCurve]) -> list[str]:
@@ -104,7 +120,7 @@ def warnings_of(scene: Bearing, curve: DynamicCurve) -> list[str]:
     unstable = [point for point in curve.points if point.numbers.get("critical_mass") == 0]
     if unstable:
         warnings.append(
-            f"{load}: at {len(unstable)} of {len(curve.points)} speeds a rotor is stable at no mass: the stiffness or "
-            "the damping is not positive there"
+            f"{load}: at {len(unstable)} of {len(curve.points)} speeds a rotor is stable at no mass: even without mass "
+            "its motion grows, as the film takes more energy from the rotation than it dissipates at some frequency"
         )
     return warnings

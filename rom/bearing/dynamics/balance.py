@@ -149,7 +149,7 @@ def point_of(found: Equilibrium, ratio: float) -> GridPoint:
 
     Parameters
     ----------
-    ratio : frequency of the motion for which pads that tilt are condensed, over that of the rotation.
+    ratio : frequency of the motion, of stiffness and damping, over that of the rotation.
     """
     point = grid_point(found.film, found.instant, ratio)
     return replace(point, numbers={**point.numbers, **found.degrees})

@@ -3,12 +3,25 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.bearing.dynamics.whirl import Whirl, condensed, rigid_whirl, whirl_of
+from roughfilm.rom.bearing.dynamics.whirl import (
+    RATIOS,
+    RATIOS_OF_MEMORY,
+    At,
+    Matrices,
+    Whirl,
+    condensed,
+    grows,
+    rigid_whirl,
+    slow_up_to,
+    whirl_of,
+)
 from roughfilm.rom.bearing.free.equilibrium import holding
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.free.solve import placed
@@ -18,7 +31,7 @@ from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.uncertainty import beyond_half_a_turn
 from roughfilm.rom.cavitation.evaluation.grids import grid_uncertainty
-from roughfilm.rom.cavitation.motion.coefficients import coefficients
+from roughfilm.rom.cavitation.motion.coefficients import SmallMotion
 from roughfilm.rom.cavitation.motion.coupled import Instant
 
 ENTRIES: Mapping[int, tuple[str, ...]] = {1: ("",), 2: ("_xx", "_xy", "_yx", "_yy")}
@@ -53,6 +66,9 @@ TEMPERATURES: Mapping[str, str] = {"temperature": "degC", "outlet_temperature": 
 UNITS: Mapping[str, str] = {
     **{f"stiffness{entry}": "N/m" for entries in ENTRIES.values() for entry in entries},
     **{f"damping{entry}": "N*s/m" for entries in ENTRIES.values() for entry in entries},
+    **{f"whirl_stiffness{entry}": "N/m" for entry in ENTRIES[2]},
+    **{f"whirl_damping{entry}": "N*s/m" for entry in ENTRIES[2]},
+    "slow_ratio": "1",
     **STATIC,
     **CONTACT,
     **TEMPERATURES,
@@ -67,8 +83,10 @@ class DynamicPoint:
     """The equilibrium of a bearing at a speed and a load.
 
     Film and asperities exert the force δF = -K δq - B δq' on a wall that moves by δq from the equilibrium: a shaft
-    along x and y, a pad towards the other wall. Where the lubricant has a temperature, the film has the one at which
-    its heat is balanced, and keeps it during the motion δq.
+    along x and y, a pad towards the other wall. K and B are those at the frequency of the motion, ``stiffness`` and
+    ``damping`` at that which was asked for, ``whirl_stiffness`` and ``whirl_damping`` at that of the whirl; up to
+    ``slow_ratio`` times the rotation, at most 10, they are those of slow motions within 5 %. Where the lubricant has a
+    temperature, the film has the one at which its heat is balanced, and keeps it during the motion δq.
 
     Attributes
     ----------
@@ -129,28 +147,60 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
 
     Parameters
     ----------
-    ratio : frequency of the motion for which pads that tilt are condensed, over that of the rotation.
+    ratio : frequency of the motion, of stiffness and damping, over that of the rotation.
     """
     scene, part = film.scene, film.free | ~film.wall.turns
     kept, among = ~film.wall.turns[part], np.ix_(part, part)
     rotation = rotation_of(scene, scene.motion.speed)
-    whole = coefficients(film.solved, instant, speed=film.solved.problem.speed)
-    stiff = whole.stiffness + holding(film, film.load)
-    coupled = stiff[among], whole.damping[among], kept
-    stiffness, damping = condensed(*coupled, ratio * rotation)
-    numbers = {
-        **dict(zip(named("stiffness", len(stiffness)), map(float, stiffness.flat), strict=True)),
-        **dict(zip(named("damping", len(damping)), map(float, damping.flat), strict=True)),
-    }
+    motion = SmallMotion(film.solved, instant, speed=film.solved.problem.speed)
+    aligned = holding(film, film.load)
+
+    @cache
+    def whole(frequency: float) -> Matrices:
+        """K and B of all coordinates."""
+        if frequency == 0:
+            return (motion.slow.stiffness + aligned)[among], motion.slow.damping[among]
+        impedance = motion.impedance(frequency)[among]
+        return impedance.real + aligned[among], impedance.imag / frequency
+
+    def at(frequency: float) -> Matrices:
+        return condensed(*whole(frequency), kept, frequency)
+
+    stiffness, damping = at(ratio * rotation)
+    numbers = entries_of(stiffness, damping)
     static = static_quantities(film, instant)
     power = "power_loss" if scene.wide else "power_loss_per_width"
     numbers |= {name: static[name].value for name in (*STATIC, *CONTACT) if name in static and name != power}
     whirl = None
     if isinstance(scene.geometry, Shaft):
-        whirl = rigid_whirl(stiffness, damping) if kept.all() else whirl_of(*coupled, rotation)
+        whirl = _whirl(at, whole(0.0), kept, rotation, has_memory=motion.has_memory)
+        frequency = math.sqrt(whirl.frequency_squared) if whirl.frequency_squared > 0 else math.nan
+        unknown = np.full((2, 2), math.nan)
+        numbers |= entries_of(*(at(frequency) if frequency > 0 else (unknown, unknown)), beginning="whirl_")
+        numbers["slow_ratio"] = slow_up_to(at, rotation, RATIOS_OF_MEMORY if motion.has_memory else RATIOS)
     return GridPoint(
         cells=math.prod(count for count in film.whole.grid.shape if count > 1) ** 0.5, numbers=numbers, whirl=whirl
     )
+
+
+def _whirl(at: At, slow: Matrices, kept: NDArray[np.bool_], rotation: float, *, has_memory: bool) -> Whirl:
+    """The whirl of a rigid rotor on a film with pads that follow it."""
+    if kept.all() and not has_memory:
+        return rigid_whirl(*slow)
+    stiffness, damping = (matrix[np.ix_(~kept, ~kept)] for matrix in slow)
+    if not kept.all() and grows(stiffness, damping, rotation):
+        return Whirl(inverse_mass=math.inf, frequency_squared=math.nan)
+    return whirl_of(at, rotation, RATIOS_OF_MEMORY if has_memory else RATIOS)
+
+
+def entries_of(stiffness: Array, damping: Array, beginning: str = "") -> dict[str, float]:
+    """The entries of stiffness and damping by their names, which begin with some letters."""
+    matrices = {"stiffness": stiffness, "damping": damping}
+    return {
+        f"{beginning}{name}": float(value)
+        for matrix, values in matrices.items()
+        for name, value in zip(named(matrix, len(values)), values.flat, strict=True)
+    }
 
 
 def static_quantities(film: FreeFilm, instant: Instant) -> dict[str, Quantity]:
@@ -191,7 +241,7 @@ def finished(
     numbers = dict(finest.numbers)
     uncertainty = {
         name: grid_uncertainty(cells, [point.numbers[name] for point in points]) + of_walls(name) + balance * abs(value)
-        if len(points) > 1
+        if len(points) > 1 and all(math.isfinite(point.numbers[name]) for point in points)
         else math.inf
         for name, value in numbers.items()
     }

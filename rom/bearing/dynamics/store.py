@@ -20,7 +20,7 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.studies.table import table_beginning
 
-SCHEMA = 1
+SCHEMA = 2
 MARK = b"roughfilm dynamics, HDF5 behind 512 bytes, sha256 "
 KIND = "table of stiffness and damping"
 REMEDY = "remove it or choose another place"

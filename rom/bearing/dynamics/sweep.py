@@ -15,11 +15,12 @@ from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, rotatio
 from roughfilm.rom.bearing.dynamics.wall_errors import wall_errors
 from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
 from roughfilm.rom.bearing.free.solve import placed
+from roughfilm.rom.bearing.geometry.journal import Journal
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.march.rough_walls import Walls, walls_of
 from roughfilm.rom.bearing.outside import film_outside
-from roughfilm.rom.bearing.scene import Bearing, BearingLoad
+from roughfilm.rom.bearing.scene import Bearing, BearingLoad, Inlet, Outlet
 from roughfilm.rom.ladder.model import Progress, silent
 
 RESOLUTION, MIN_CELLS, MAX_CELLS = 128, 32, 512
@@ -110,7 +111,7 @@ def dynamics(
     speeds : sliding speeds, m/s, above 0, in any order without repetition.
     pressures : loads over the nominal area, Pa.
     resolution : number of cells along the film; half as many are across.
-    frequency_ratio : frequency of the motion over that of the rotation for which pads that tilt are condensed.
+    frequency_ratio : frequency of the motion over that of the rotation, of stiffness and damping; 0 of slow motions.
     mass : mass of a rigid rotor in the bearing, kg, whose onset of instability is sought.
     known : points that are not solved again.
     keep : called with each new point.
@@ -123,7 +124,8 @@ def dynamics(
     ConvergenceError
         If no film converges under a load.
     """
-    ordered = _checked(scene, speeds, pressures, resolution, frequency_ratio, mass)
+    scene = free_bearing(scene)
+    ordered = _checked(speeds, pressures, resolution, frequency_ratio, mass)
     done = {(point.pressure, point.speed): point for point in known}
     walls, curves = walls_of(scene), []
     for number, pressure in enumerate(sorted(pressures)):
@@ -296,15 +298,13 @@ def _excess(point: DynamicPoint, mass: float) -> float:
 
 
 def _checked(
-    scene: Bearing,
     speeds: Sequence[float],
     pressures: Sequence[float],
     resolution: int,
     frequency_ratio: float,
     mass: float | None,
 ) -> list[float]:
-    """The speeds in increasing order; raises InputError for a bearing or a number out of range."""
-    check_bearing(scene)
+    """The speeds in increasing order; raises InputError for a number out of range."""
     for name, values in (("speeds", speeds), ("loads", pressures)):
         wrong = [value for value in values if not 0 < value < math.inf]
         if wrong or not values:
@@ -322,14 +322,34 @@ def _checked(
     return sorted(speeds)
 
 
-def check_bearing(scene: Bearing) -> None:
-    """Raise InputError for a bearing whose walls do not move freely, or whose lubricant thins with shear."""
+def free_bearing(scene: Bearing) -> Bearing:
+    """The bearing in the coordinates of its wall: a plain journal as one lobe around the shaft.
+
+    Raises
+    ------
+    InputError
+        If the walls of the bearing do not move freely, or its lubricant thins with shear.
+    """
     scene.check_newtonian("an analysis of stiffness and damping")
-    if not isinstance(scene.geometry, MovingWall):
+    journal = scene.geometry
+    if isinstance(journal, Journal):
+        lines = scene.boundary.inlet != Inlet() or scene.boundary.outlet != Outlet()
+        others = {"geometry.texture": journal.texture, "supply": scene.supply, "boundary": lines}
+        if given := [name for name, value in others.items() if value]:
+            raise InputError(
+                f"{given[0]}: got one for a shaft that moves in its bore, where the line at the inlet has no place; "
+                "leave it out, or take geometry.shape = 'lobes', to whose bore grooves and supplies are fixed"
+            )
+        if journal.width is None:
+            raise InputError("geometry.width: is missing, but a bore without grooves is filled from its sides; give it")
+        same = {name: getattr(journal, name) for name in ("radius", "clearance", "width")}
+        return scene.model_copy(update={"geometry": Lobes.model_construct(shape="lobes", **same)})
+    if not isinstance(journal, MovingWall):
         raise InputError(
-            f"geometry.shape: got {scene.geometry.shape!r}; stiffness and damping are those of a wall that moves "
-            "freely, take 'lobes' or a pad about its pivot"
+            f"geometry.shape: got {journal.shape!r}; stiffness and damping are those of a wall that moves freely, take "
+            "'journal', 'lobes' or a pad about its pivot"
         )
+    return scene
 
 
 def mass_of(scene: Bearing) -> float | None:

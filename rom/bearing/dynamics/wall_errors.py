@@ -123,7 +123,7 @@ def wall_errors(scene: Bearing, walls: Walls, found: Equilibrium, ratio: float) 
             return direct[name]
         if name in own.numbers:
             changes = sum(abs(other.numbers[name] - own.numbers[name]) for other in others)
-            return changes + direct.get(name, 0.0)
+            return changes + direct.get(name, 0.0) if math.isfinite(changes) else math.inf
         if own.whirl is None:
             return 0.0
         here = getattr(own.whirl, name)

@@ -1,8 +1,8 @@
 """The stability of a rigid rotor in bearings with given stiffness and damping."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -18,11 +18,27 @@ Matrices = tuple[Array, Array]
 RATIOS = np.geomspace(0.01, 10.0, 120)
 """Whirl ratios between which whirl is sought if stiffness and damping depend on the frequency."""
 
+RATIOS_OF_MEMORY = np.concatenate([[0.01, 0.02, 0.05], np.linspace(0.1, 2.0, 20), [2.5, 3.0, 4.0, 5.0, 7.0, 10.0]])
+"""The same of a film with memory, each of which is a solution: what its cavities carry along the film within a turn
+comes and goes with a period of about 1."""
+
+BEYOND = np.geomspace(1.0, 1e6, 61)[1:]
+"""Frequencies over the largest of these at which K and B are taken to be those at it."""
+
+WHIRL_TOLERANCE = 1e-9
+"""Error of a whirl ratio at which its search stops."""
+
+SAME = 0.05
+"""Relative change of stiffness or damping up to which those of slow motions are taken to hold."""
+
 FASTEST = 100.0
 """Size of the roots of the motion over the rotational speed up to which they are considered."""
 
 GROWTH = 1e-9
 """Rate of growth over the rotational speed up to which a motion is taken not to grow."""
+
+At = Callable[[float], Matrices]
+"""at(ν), stiffness and damping of a shaft for a motion of the frequency ν, rad/s; those of slow motions at 0."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,56 +81,86 @@ def rigid_whirl(stiffness: Array, damping: Array) -> Whirl:
     return Whirl(inverse_mass=squared / k, frequency_squared=squared)
 
 
-def whirl_of(stiffness: Array, damping: Array, kept: NDArray[np.bool_], speed: float) -> Whirl:
-    """The whirl of a rigid rotor in a bearing whose pads, without inertia, follow the shaft.
+def whirl_of(at: At, speed: float, ratios: Array = RATIOS) -> Whirl:
+    """The whirl of a rigid rotor in a bearing whose stiffness and damping depend on the frequency.
 
-    The conditions of :func:`rigid_whirl` hold with K and B of the shaft at the frequency ν, see :func:`condensed`. Of
-    several whirls that with the smallest mass counts; whirl ratios ν/ω from 0.01 to 10 are searched. The rotor is
-    stable at no mass if a root s of det(K + sB + s²M) = 0 of all coordinates has a positive real part for a mass that
-    is smaller than that of any of these whirls. Damping of slow motions may be negative without such a root.
+    The conditions of :func:`rigid_whirl` hold with K and B of the shaft at the frequency ν. Of several whirls that with
+    the smallest mass counts. A small mass has as many growing motions as det(K + sB) has zeros with a positive real
+    part, which by the argument principle are 1 - Δ/π with the growth Δ of the argument of det(K + iνB) over all ν; the
+    rotor is then stable at no mass.
 
     Parameters
     ----------
-    stiffness, damping : K and B of all coordinates.
-    kept : whether each coordinate is one of the two of the shaft.
+    at : K and B of the shaft.
     speed : rotational speed ω of the rotor, rad/s, above 0.
+    ratios : whirl ratios ν/ω between which whirl is sought.
+
+    Source: Lund 1987, doi:10.1115/1.3261324.
     """
-    at = partial(condensed, stiffness, damping, kept)
-    fast, slow = at(float(RATIOS[-1]) * speed), at(float(RATIOS[0]) * speed)
-    mass = abs(_whirl_stiffness(*fast)) / (RATIOS[-1] * speed) ** 2
-    if _grows(stiffness, damping, kept, mass, speed):
+    found = [at(float(ratio) * speed) for ratio in ratios]
+    stiffness, damping = found[-1]
+    fast = [stiffness + 1j * beyond * ratios[-1] * speed * damping for beyond in BEYOND]
+    between = [k + 1j * ratio * speed * b for ratio, (k, b) in zip(ratios, found, strict=True)]
+    arguments = np.unwrap(np.angle([np.linalg.det(z) for z in (found[0][0], *between, *fast)]))
+    if round(1 - float(arguments[-1] - arguments[0]) / math.pi) != 0:
         return Whirl(inverse_mass=math.inf, frequency_squared=math.nan)
 
     def excess(ratio: float) -> float:
         k, b = at(ratio * speed)
         return _detuned(k, b) - float(np.linalg.det(b)) * (ratio * speed) ** 2
 
-    values = [excess(float(ratio)) for ratio in RATIOS]
-    found = []
-    for (low, below), (high, above) in pairwise(zip(map(float, RATIOS), values, strict=True)):
+    values = [
+        _detuned(k, b) - float(np.linalg.det(b)) * (r * speed) ** 2 for r, (k, b) in zip(ratios, found, strict=True)
+    ]
+    whirls = []
+    for (low, below), (high, above) in pairwise(zip(map(float, ratios), values, strict=True)):
         if below * above < 0:
-            frequency = float(brentq(excess, low, high, xtol=1e-14)) * speed
+            frequency = float(brentq(excess, low, high, xtol=WHIRL_TOLERANCE)) * speed
             k = _whirl_stiffness(*at(frequency))
             if k > 0:
-                found.append(Whirl(inverse_mass=frequency**2 / k, frequency_squared=frequency**2))
-    if found:
-        return max(found, key=lambda whirl: whirl.inverse_mass)
-    squared = min(_frequency_squared(*slow), 0.0)
-    return Whirl(inverse_mass=squared / abs(_whirl_stiffness(*slow)), frequency_squared=squared)
+                whirls.append(Whirl(inverse_mass=frequency**2 / k, frequency_squared=frequency**2))
+    if whirls:
+        return max(whirls, key=lambda whirl: whirl.inverse_mass)
+    squared = min(_frequency_squared(*found[0]), 0.0)
+    return Whirl(inverse_mass=squared / abs(_whirl_stiffness(*found[0])), frequency_squared=squared)
 
 
-def _grows(stiffness: Array, damping: Array, kept: NDArray[np.bool_], mass: float, speed: float) -> bool:
-    """Whether a root s of det(K + sB + s²M) = 0 with a mass on the kept coordinates has a positive real part.
+def grows(stiffness: Array, damping: Array, speed: float) -> bool:
+    """Whether a root s of det(K + sB) = 0 of pads without inertia has a positive real part while the shaft rests.
 
     Roots beyond ``FASTEST`` times the speed, as those of pads without pressure or damping, are left out.
+
+    Parameters
+    ----------
+    stiffness, damping : K and B of the pads.
+    speed : rotational speed of the rotor, rad/s.
     """
-    held = np.eye(len(kept))[:, kept]
-    none, one = np.zeros(held.shape), np.eye(held.shape[1])
-    left = np.block([[stiffness, none], [none.T, one]])
-    right = np.block([[-damping, -mass * held], [held.T, np.zeros(one.shape)]])
-    top, bottom = eig(left, right, right=False, homogeneous_eigvals=True)
+    top, bottom = eig(stiffness, -damping, right=False, homogeneous_eigvals=True)
     finite = np.abs(top) < FASTEST * speed * np.abs(bottom)
     return bool(((top[finite] / bottom[finite]).real > GROWTH * speed).any())
+
+
+def slow_up_to(at: At, speed: float, ratios: Array = RATIOS) -> float:
+    """The frequency over the speed up to which K and B differ by at most ``SAME`` from those of slow motions.
+
+    Each differs by the norm of its change over its own; the largest of the ratios if they do at all of them.
+
+    Parameters
+    ----------
+    at, speed, ratios : as in :func:`whirl_of`.
+    """
+    slow = at(0.0)
+
+    def change(ratio: float) -> float:
+        pairs = zip(at(ratio * speed), slow, strict=True)
+        return max(float(np.linalg.norm(one - before) / np.linalg.norm(before)) for one, before in pairs) - SAME
+
+    last = 0.0
+    for ratio in map(float, ratios):
+        if change(ratio) > 0:
+            return float(brentq(change, last, ratio, xtol=WHIRL_TOLERANCE)) if last else ratio
+        last = ratio
+    return last
 
 
 def _damped(stiffness: Array, damping: Array) -> bool:

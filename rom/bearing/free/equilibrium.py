@@ -71,17 +71,11 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
     Raises
     ------
     InputError
-        If nothing supplies the film, it closes, the shaft leaves its bore, or the film starves a supply in equilibrium.
+        If the film closes, the shaft leaves its bore, or the film starves a supply in equilibrium.
     ConvergenceError
         If the motion does not settle.
     """
     solved = film.solved
-    sides = solved.problem.ends.sides
-    if solved.problem.shape.joined[0] and not solved.inflows and sides is not None and max(sides) <= 0:
-        raise InputError(
-            "boundary.sides: got the cavitation pressure at both sides of a bore without grooves, which then has no "
-            "supply; give geometry.arc, or a lower lubricant.cavitation_pressure"
-        )
     force = film.load if load is None else load
     if (reason := unbalanced(film, force)) is not None:
         raise reason

@@ -18,6 +18,7 @@ from roughfilm.rom.bearing.geometry.pivoted import Pivoted, PivotedSector
 from roughfilm.rom.bearing.geometry.rigid import MovingWall, RigidWall
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.supply.patches import in_the_middle
+from roughfilm.rom.cavitation.balance import CAVITY, FLOODED
 from roughfilm.rom.cavitation.grid import doubled, grid
 from roughfilm.rom.cavitation.motion.contact import ContactLaw
 from roughfilm.rom.cavitation.motion.coupled import Instant, full_film
@@ -90,6 +91,8 @@ class FreeFilm:
         net = film.network(faces, instant.pressures, speed=problem.speed)
         state = State(pressure=self.widened(instant.state.pressure), fill=self.widened(instant.state.fill))
         load = float((film.grid.areas * state.pressure).sum())
+        refilled = film.refills & (instant.kind == FLOODED)
+        kind = np.where(refilled, np.int8(CAVITY), instant.kind)  # which holds liquid alone
         return Solution(
             problem=problem,
             turned=self.turned,
@@ -97,7 +100,7 @@ class FreeFilm:
             faces=faces,
             network=net,
             state=state,
-            kind=self.widened(instant.kind),
+            kind=self.widened(kind),
             residual=instant.residual,
             imbalance=0.0,
             levels=(Level(shape=film.grid.shape, iterations=instant.iterations, load=load),),
@@ -158,13 +161,16 @@ def free_film(
     count = max(cells[1] // 2, 1)
     upper = None if half is None else grid(half.shape, (cells[0], count))
     nodes = grid(at_rest.shape, (cells[0], 2 * count)) if upper is None else doubled(upper)
+    inflows, sides = (*gaps, *at_rest.inflows), at_rest.ends.sides
+    unsupplied = at_rest.shape.joined[0] and not inflows and sides is not None and max(sides) <= 0
     whole = MovingFilm(
         problem=at_rest.on(nodes),
         grid=nodes,
         normals=modes,
-        inflows=(*gaps, *at_rest.inflows),
+        inflows=inflows,
         ambient=-scene.lubricant.cavitation_pressure,
         ruptures=ruptures,
+        refills=ruptures and unsupplied,
         contact=contact,
         closest=closest,
         turns=wall.turns,

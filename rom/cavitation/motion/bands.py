@@ -214,7 +214,7 @@ class Bands:
 
 
 class Ring:
-    """The factors of the matrix of a wide film that is periodic in x, by SuperLU.
+    """The factors of the matrix of a wide film that is periodic in x, or of a complex one, by SuperLU.
 
     The order of elimination has the least degree, so that 256 × 129 nodes take a tenth of the time of bands, whose last
     row is full; up to about 40 nodes across bands are faster. Parameters and errors are those of :class:`Bands`.
@@ -223,7 +223,7 @@ class Ring:
     def __init__(self, linear: Linear, known: NDArray[np.bool_]) -> None:
         self.shape = linear.centre.shape
         count = linear.centre.size
-        values, columns = np.empty(5 * count), np.empty(5 * count, dtype=np.int32)
+        values, columns = np.empty(5 * count, dtype=linear.centre.dtype), np.empty(5 * count, dtype=np.int32)
         begins = np.empty(count + 1, dtype=np.int32)
         parts = (linear.centre, linear.west, linear.east, linear.south, linear.north)
         entries = write_ring(known, *parts, values, columns, begins)
@@ -243,9 +243,11 @@ class Ring:
 
 
 def factors_of(linear: Linear, known: NDArray[np.bool_], *, periodic: bool) -> Bands | Ring:
-    """The factors of the matrix of a film, which is a ring if it is periodic in x without a row of known nodes."""
-    ring = periodic and not known.all(axis=1).any()
-    return Ring(linear, known) if ring and known.shape[1] > WIDE else Bands(linear, known, periodic=periodic)
+    """The factors of the matrix of a film, by bands if it is real and narrow or has a row of known nodes."""
+    ring = periodic and not known.all(axis=1).any() and known.shape[1] > WIDE
+    if ring or np.iscomplexobj(linear.centre):
+        return Ring(linear, known)
+    return Bands(linear, known, periodic=periodic)
 
 
 def _singular() -> ConvergenceError:

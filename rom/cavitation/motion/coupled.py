@@ -50,6 +50,9 @@ LEAST_PART = 1e-3
 """Least size of the parts of the force on a coordinate over that on the whole film: pads may carry nothing,
 and the round-off of pressures, such as that of a film at ambient pressure, balances."""
 
+REFILLED = 1e-12
+"""Excess inflow of a refilled node, over the largest flow through a face, from which on it is under pressure."""
+
 COLUMNS_KEPT = 5
 """Largest number of steps for which the derivatives by the coordinates are kept, as they change little.
 
@@ -122,7 +125,10 @@ class Response:
 
 @dataclass(kw_only=True)
 class Trial:
-    """The unknowns of a film and its coordinates during the iteration, with the film and its balances at them."""
+    """The unknowns of a film and its coordinates during the iteration, with the film and its balances at them.
+
+    Nodes of refilled cavities are ``FLOODED``: their pressure and filling are known, and they take in what they lack.
+    """
 
     film: MovingFilm
     drive: Drive
@@ -170,6 +176,9 @@ class Trial:
         self.largest = flow or LEAST_STORED * float(net.storage.max()) or 1.0
         for bank, rest in zip(net.banks(self.kind), net.banks(parts[0]), strict=True):
             settle_bank(bank, rest)
+        if film.refills and (pressed := (self.kind == FLOODED) & (parts[0] < -REFILLED * self.largest)).any():
+            self.kind = np.where(pressed, np.int8(FILM), self.kind)
+            return self.evaluate()
         self.linear, self.factors = Linear(self.kind, mobility[0], *parts), None
         return self
 
@@ -262,7 +271,8 @@ class Trial:
             return Response(change=change, pressures=np.zeros((0, sources.shape[-1])))
         count = sources.shape[-1]
         change, spread = change[..., :count], change[..., count:]
-        matrix, right = np.zeros((len(within),) * 2), np.zeros((len(within), count)) + passed
+        matrix = np.zeros((len(within),) * 2, dtype=change.dtype)
+        right = np.zeros((len(within), count), dtype=change.dtype) + passed
         for row, (number, nodes) in enumerate(zip(film.restricted, within, strict=True)):
             by_unknowns = np.where(self.kind >= FIXED, 0.0, self.linear.adjoint(nodes.astype(float)))
             direct = np.array([column[nodes].sum() for column in columns])
@@ -301,7 +311,7 @@ class Trial:
 def _solved(matrix: Array, right: Array) -> Array:
     """The solution of a small linear system; UnresistedError if the matrix is singular."""
     try:
-        return np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+        return np.asarray(np.linalg.solve(matrix, right))
     except np.linalg.LinAlgError:
         raise UnresistedError(
             "motion: the film does not resist the motion of its wall; give a mass, or a start near the equilibrium",
@@ -398,7 +408,7 @@ def settled(
     for iteration in range(limit + 1):
         with np.errstate(over="ignore", invalid="ignore"):  # an overflow gives a residual that is not finite
             trial.sample()
-            if film.ruptures and 0 < changed < fewest and trial.network.storage.min() >= 0:
+            if film.ruptures and not film.refills and 0 < changed < fewest and trial.network.storage.min() >= 0:
                 fewest = np.inf if line else changed
                 trial.relax()
             trial.evaluate()
@@ -484,7 +494,10 @@ def _passable(trial: Trial, change: Array) -> float:
 def _advance(trial: Trial, change: Array) -> int:
     """Add the change to the unknowns of the nodes; returns how many nodes changed their kind."""
     if trial.film.ruptures:
-        return int(advance(*(values.reshape(-1) for values in (trial.kind, trial.pressure, trial.fill, change))))
+        changed = int(advance(*(values.reshape(-1) for values in (trial.kind, trial.pressure, trial.fill, change))))
+        if trial.film.refills:
+            trial.kind[trial.kind == CAVITY] = FLOODED
+        return changed
     trial.pressure += np.where(trial.kind == FILM, change, 0.0)
     return 0
 

@@ -63,6 +63,8 @@ class MovingFilm:
     ambient : pressure on the other sides of the walls above cavitation pressure, Pa.
     halved : whether y = low is a line of symmetry, through which nothing flows, in place of a side.
     ruptures : whether the film cavitates.
+    refills : whether liquid at the cavitation pressure fills every cavity at once from outside, as from the sides of a
+        bore that are at this pressure: p >= 0, and ∂p/∂n = 0 where the film ruptures and where it forms again.
     contact : the contact pressure over the film thickness; None of walls that do not touch.
     closest : smallest film thickness of walls that do not touch, m, such as that of which flow factors are known.
     turns : whether each coordinate is the tilt of a pad, on which no pressure in the gaps beside it acts; by default
@@ -76,6 +78,7 @@ class MovingFilm:
     ambient: float = 0.0
     halved: bool = False
     ruptures: bool = True
+    refills: bool = False
     contact: ContactLaw | None = None
     closest: float = 0.0
     turns: NDArray[np.bool_] | None = None
@@ -184,6 +187,8 @@ class MovingFilm:
             ruptures=self.ruptures,
             viscosities=self.problem.at_nodes,
         )
+        if self.refills:
+            net = net.with_whole_faces()
         if storage is not None:
             volumes = self.grid.areas * self.gap(faces.thickness)
             net = replace(net, storage=volumes * storage[0], stored=net.stored - volumes * of_gap)

@@ -29,7 +29,7 @@ from roughfilm.rom.bearing.dynamics.sweep import (
     MIN_CELLS,
     RESOLUTION,
     DynamicCurve,
-    check_bearing,
+    free_bearing,
     mass_of,
 )
 from roughfilm.rom.bearing.scene import Bearing
@@ -88,7 +88,7 @@ def command(
         float,
         typer.Option(
             metavar="RATIO",
-            help="Frequency of the motion over that of the rotation, for pads that tilt (default 1: unbalance).",
+            help="Frequency of the motion over that of the rotation, for stiffness and damping (default 1: unbalance).",
             show_default=False,
         ),
     ] = 1.0,
@@ -100,8 +100,7 @@ def command(
 ) -> None:
     """Sweep speed and load of a bearing: stiffness, damping and the stability of its rotor."""
     spent, bearing = stopwatch(), bearing_of(load_scene(scene, set_ or ()))
-    bearing = bearing.isothermal() if isothermal else bearing
-    check_bearing(bearing)
+    bearing = free_bearing(bearing.isothermal() if isothermal else bearing)
     sliding, pressures = _speeds(bearing, speeds), _pressures(bearing, loads)
     resolution = whole_in_range("--resolution", resolution, MIN_CELLS, MAX_CELLS)
     low, high = FREQUENCY_RATIOS

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from roughfilm.rom.bearing.dynamics.whirl import condensed, rigid_whirl, whirl_of
+from roughfilm.rom.bearing.dynamics.whirl import Whirl, condensed, grows, rigid_whirl, whirl_of
 
 K = np.array([[1.5, 7.3], [-2.2, 1.5]])
 B = np.array([[14.7, 1.6], [1.6, 4.5]])
@@ -58,6 +58,14 @@ def pads() -> tuple[np.ndarray, np.ndarray]:
     return stiffness, np.block([[B, 0.5 * between], [0.5 * between.T, np.diag([1.0, 1.5])]])
 
 
+def whirl_on_pads(stiffness: np.ndarray, damping: np.ndarray) -> Whirl:
+    """The whirl of a shaft, the first two coordinates, on pads that follow it, at the speed 1."""
+    kept = np.arange(len(stiffness)) < 2
+    if grows(stiffness[2:, 2:], damping[2:, 2:], 1.0):
+        return Whirl(inverse_mass=math.inf, frequency_squared=math.nan)
+    return whirl_of(lambda frequency: condensed(stiffness, damping, kept, frequency), 1.0)
+
+
 def test_condensed_pads_follow_without_force():
     k, b = pads()
     kept = np.array([True, True, False, False])
@@ -75,8 +83,7 @@ def test_condensed_pads_follow_without_force():
 
 def test_the_whirl_of_a_shaft_on_pads_is_where_its_eigenvalues_cross():
     k, b = pads()
-    kept = np.array([True, True, False, False])
-    whirl = whirl_of(k, b, kept, 1.0)
+    whirl = whirl_on_pads(k, b)
     assert whirl.inverse_mass > 0
     frequency = math.sqrt(whirl.frequency_squared)
     inertia = np.diag([1.0, 1.0, 0, 0]) * frequency**2 / whirl.inverse_mass
@@ -103,7 +110,7 @@ def test_a_rotor_on_pads_is_stable_exactly_below_the_critical_mass(seed):
     root = rng.normal(size=(4, 4))
     b = root @ root.T + 0.1 * np.eye(4)
     k = np.diag(rng.uniform(1, 4, 4)) + rng.uniform(0.2, 1.2) * rng.normal(size=(4, 4))
-    whirl = whirl_of(k, b, np.array([True, True, False, False]), 1.0)
+    whirl = whirl_on_pads(k, b)
     if math.isinf(whirl.inverse_mass):
         assert motion(1e-3, k, b) > 0
     elif whirl.inverse_mass > 0:
@@ -118,18 +125,17 @@ def test_negative_damping_of_slow_motions_alone_leaves_a_light_rotor_stable():
     b = np.diag([0.5, 0.5, 0.4])
     slow = condensed(k, b, np.array([True, True, False]), 1e-3)[1]
     assert slow[0, 0] < 0
-    assert math.isfinite(whirl_of(k, b, np.array([True, True, False]), 1.0).inverse_mass)
+    assert math.isfinite(whirl_on_pads(k, b).inverse_mass)
     assert motion(1e-3, k, b) < 0
 
 
 def test_pads_that_do_not_move_leave_the_whirl_of_the_shaft():
-    kept = np.array([True, True, False])
     for turned in (K, (K + K.T) / 2 + 4 * np.eye(2)):
         k, b = np.eye(3), np.eye(3)
         k[:2, :2], b[:2, :2] = turned, B
-        whirl, rigid = whirl_of(k, b, kept, 1.0), rigid_whirl(turned, B)
+        whirl, rigid = whirl_on_pads(k, b), rigid_whirl(turned, B)
         if rigid.inverse_mass > 0:
-            assert whirl.inverse_mass == pytest.approx(rigid.inverse_mass, rel=1e-9)
-            assert whirl.frequency_squared == pytest.approx(rigid.frequency_squared, rel=1e-9)
+            assert whirl.inverse_mass == pytest.approx(rigid.inverse_mass, rel=1e-7)
+            assert whirl.frequency_squared == pytest.approx(rigid.frequency_squared, rel=1e-7)
         else:
             assert whirl.inverse_mass <= 0
