@@ -18,7 +18,7 @@ from roughfilm.rom.bearing.march.course import Duty
 from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.contact_load import asperity_load
 from roughfilm.rom.bearing.outside import reynolds_numbers
-from roughfilm.rom.cavitation.balance import CAVITY, FIXED
+from roughfilm.rom.cavitation.balance import CAVITY, FIXED, FLOODED
 from roughfilm.rom.cavitation.evaluation.filling import density_ratio
 from roughfilm.rom.cavitation.evaluation.friction import drag_of_rows, radius_between
 from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
@@ -193,7 +193,8 @@ class Observer:
         values += [friction, power, squeeze, power + squeeze, *([torque] if self._turns else []), *flows]
         lowest = self.duty.scene.lubricant.cavitation_pressure
         values += [float(instant.state.pressure[nodes].max()) + lowest for nodes in self._pressures.values()]
-        cavitated = float(film.grid.areas[instant.kind == CAVITY].sum() / film.grid.areas.sum())
+        empty = instant.kind == (FLOODED if film.refills else CAVITY)
+        cavitated = float(film.grid.areas[empty].sum() / film.grid.areas.sum())
         found = reynolds_numbers(self.duty.scene, solution)
         numbers = (found.shear, found.pressure, found.clearance)[: len(self.reynolds)]
         values += [stored, rate, imbalance, cavitated, *numbers]
@@ -327,7 +328,8 @@ class Observer:
     def _flows(self, instant: Instant) -> tuple[list[float], float, float, float]:
         """The flows that enter through each place, m³/s, the volume at cavitation density, its rate and the imbalance.
 
-        The flow through the sides counts outwards, as that through the outlet. The imbalance is that of all flows with
+        The flow through the sides counts outwards, as that through the outlet; what refills cavities from there is not
+        in it. The imbalance is that of all flows with
         the storage, over the largest of them, of those along the film and of what passes its edges. It is 0 below the
         round-off of the stored volume over a step, and where no flow exceeds the round-off of those that the pressures
         drive, as at rest.
@@ -348,7 +350,8 @@ class Observer:
                 flows.append((-film.sides if name == "outlet_flow" else film.sides) * flow)
         stored = film.sides * float((areas * film.gap(instant.faces.thickness) * filled).sum())
         rate = film.sides * float((net.storage * filled - net.stored).sum())
-        entering = sum(
+        refilled = film.sides * float(outside[instant.kind == FLOODED].sum()) if film.refills else 0.0
+        entering = refilled + sum(
             flow if name.startswith(("gap", "supply", "inlet")) else -flow
             for name, flow in zip(self._places, flows, strict=True)
         )

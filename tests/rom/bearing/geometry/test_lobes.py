@@ -96,6 +96,9 @@ def test_faults_are_one_line(geometry, message):
 
 
 def test_lobes_without_gaps_are_fed_through_their_sides():
-    entries = {"name": "lobes", "kind": "bearing", "geometry": PLAIN, "load": {"force": "5 kN"}}
-    with pytest.raises(InputError, match="lobes without gaps are fed through their sides"):
+    wide = {name: value for name, value in PLAIN.items() if name != "width"}
+    entries = {"name": "lobes", "kind": "bearing", "geometry": wide, "load": {"force_per_width": "5 kN/m"}}
+    with pytest.raises(
+        InputError, match=r"geometry\.width: is missing, but lobes without gaps are fed through their sides"
+    ):
         read_scene({**entries, "lubricant": {"viscosity": "20 mPa*s"}, "motion": {"speed": "3000 rpm"}})
