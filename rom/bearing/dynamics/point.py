@@ -166,8 +166,7 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
     def at(frequency: float) -> Matrices:
         return condensed(*whole(frequency), kept, frequency)
 
-    stiffness, damping = at(ratio * rotation)
-    numbers = entries_of(stiffness, damping)
+    numbers = entries_of(at(ratio * rotation))
     static = static_quantities(film, instant)
     power = "power_loss" if scene.wide else "power_loss_per_width"
     numbers |= {name: static[name].value for name in (*STATIC, *CONTACT) if name in static and name != power}
@@ -175,8 +174,8 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
     if isinstance(scene.geometry, Shaft):
         whirl = _whirl(at, whole(0.0), kept, rotation, has_memory=motion.has_memory)
         frequency = math.sqrt(whirl.frequency_squared) if whirl.frequency_squared > 0 else math.nan
-        unknown = np.full((2, 2), math.nan)
-        numbers |= entries_of(*(at(frequency) if frequency > 0 else (unknown, unknown)), beginning="whirl_")
+        at_whirl = at(frequency) if frequency > 0 else (np.full((2, 2), math.nan),) * 2
+        numbers |= entries_of(at_whirl, beginning="whirl_")
         numbers["slow_ratio"] = slow_up_to(at, rotation, RATIOS_OF_MEMORY if motion.has_memory else RATIOS)
     return GridPoint(
         cells=math.prod(count for count in film.whole.grid.shape if count > 1) ** 0.5, numbers=numbers, whirl=whirl
@@ -193,12 +192,11 @@ def _whirl(at: At, slow: Matrices, kept: NDArray[np.bool_], rotation: float, *, 
     return whirl_of(at, rotation, RATIOS_OF_MEMORY if has_memory else RATIOS)
 
 
-def entries_of(stiffness: Array, damping: Array, beginning: str = "") -> dict[str, float]:
+def entries_of(matrices: Matrices, beginning: str = "") -> dict[str, float]:
     """The entries of stiffness and damping by their names, which begin with some letters."""
-    matrices = {"stiffness": stiffness, "damping": damping}
     return {
         f"{beginning}{name}": float(value)
-        for matrix, values in matrices.items()
+        for matrix, values in zip(("stiffness", "damping"), matrices, strict=True)
         for name, value in zip(named(matrix, len(values)), values.flat, strict=True)
     }
 
