@@ -145,11 +145,13 @@ def wanted(scene: Scene, name: str | None) -> str:
     kind = kind_of_scene(kind_of_scene(scene).steady(scene))
     if name is None:
         return next(iter(kind.compared))
-    for quantity, title in kind.titles.items():
+    for quantity, title in (*kind.named.items(), *kind.reported.items()):
         if name in (quantity, title):
             return quantity
     titles = ", ".join(repr(title) for title in kind.titles.values())
-    raise InputError(f"quantity: got {name!r}; of a {scene.kind} it must be one of {titles}")
+    raise InputError(
+        f"quantity: got {name!r}; of a {scene.kind} it must be one of {titles}, or another one that a result shows"
+    )
 
 
 def shortfall(advice: Advice) -> str:
@@ -242,7 +244,7 @@ def advise(
         kind=kind,
         models=applying,
         quantity=quantity,
-        title=kind.titles[quantity],
+        title=kind.named[quantity],
         table=lawful(laws or table(), kind.names_of_laws, holds=kind.lawful),
         numbers=kind.numbers(scene),
         run=solved,

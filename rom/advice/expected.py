@@ -81,6 +81,9 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
     applying = [other for other in models if other.applies(scene).applies]
     errors: dict[str, StatedError] = {}
     for quantity, title in kind.titles.items() if any(other.name == model.name for other in applying) else ():
+        if quantity in result.quantities and kind.outside_laws(scene, result, quantity):
+            continue
+        omitted = kind.omitted(scene, model, quantity)
         task = AdviceTask(
             scene=scene,
             kind=kind,
@@ -90,13 +93,12 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
             table=lawful(table(), kind.names_of_laws, holds=kind.lawful),
             numbers=kind.numbers(scene),
             run=lambda other, grid: other.solve(scene, Request(resolution=grid)),
+            omitted={} if omitted is None else {model.name: omitted},
         )
-        if quantity in result.quantities and kind.outside_laws(scene, result, quantity):
-            continue
         own = task.uncertainty(result) if quantity in result.quantities else None
         estimate = a_priori(task, model, result.numerics.resolution, own)
         if estimate is not None and estimate.sure:
-            stated = estimate.stated(kind.omitted(scene, model, quantity))
+            stated = estimate.stated(omitted)
             stated = replace(stated, error=max(stated.error, own or 0.0))
             errors |= {quantity: stated} if math.isfinite(stated.error) else {}
     return errors
@@ -146,14 +148,16 @@ def error_lines(kind: Kind, result: Result) -> list[str]:
     """
     errors = {name: one for name, one in stated_errors(result).items() if name in result.quantities}
     by_source: dict[str, list[str]] = {}
-    for name, title in kind.titles.items():
+    for name, title in kind.named.items():
         if name in errors:
-            by_source.setdefault(errors[name].source, []).append(f"{title} {errors[name].amount}")
+            rise = " of its rise" if result.quantities[name].unit == "degC" else ""
+            by_source.setdefault(errors[name].source, []).append(f"{title} {errors[name].amount}{rise}")
     unknown = [title for name, title in kind.titles.items() if name in _expected(kind, result) - errors.keys()]
     texts = [f"{', '.join(parts)} ({source})" for source, parts in by_source.items()]
     return texts + ([f"{', '.join(unknown)} unknown"] if unknown else [])
 
 
 def _expected(kind: Kind, result: Result) -> set[str]:
-    """The quantities of a result whose error a reader expects: those compared, and ratios."""
-    return {*kind.shared(result), *(name for name in kind.ratios if name in result.quantities)}
+    """The quantities of a result whose error a reader expects: those compared, ratios and temperatures."""
+    degrees = {name for name, one in result.quantities.items() if one.unit == "degC"}
+    return {*kind.shared(result), *(name for name in kind.ratios if name in result.quantities), *degrees}

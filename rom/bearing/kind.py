@@ -12,7 +12,7 @@ from roughfilm.contact.foundation.entries import Part
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.faults import Fault, faults_of, known_keys, unknown_key
 from roughfilm.contact.foundation.line_numbers import Location
-from roughfilm.contact.foundation.units import Quantity, to_si
+from roughfilm.contact.foundation.units import ZERO_CELSIUS, Quantity, to_si
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.bearing.effects.absent import absent_effects
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
@@ -46,8 +46,12 @@ COLUMNS = {
 MIN_LOAD_OVER_FRICTION = 1e-3
 """Load over friction below which errors of the load are related to the friction."""
 
-LEAST_SIZES = {"attitude_angle": 10.0, "eccentricity": 0.1}
-"""Attitude angle, degrees, and eccentricity below which their errors are related to these sizes: both may be 0."""
+DEGREES = {name: REPORTED[name] for name in ("temperature_max", "temperature_mean", "outlet_temperature")}
+"""The temperatures that models are compared by, with their titles."""
+
+LEAST_SIZES = {"attitude_angle": 10.0, "eccentricity": 0.1, **dict.fromkeys(DEGREES, 1.0)}
+"""Attitude angle, degrees, eccentricity and rises of temperatures, K, below which their errors are related to these
+sizes: all may be 0."""
 
 SYMBOLS = {"compression": "ϑ", "starvation": "θ", "slenderness": "B/L"}
 
@@ -77,6 +81,12 @@ def scale(values: Mapping[str, Any], quantity: str) -> Any:
     if quantity != "load_per_width":
         return size
     return np.maximum(size, MIN_LOAD_OVER_FRICTION * np.abs(values["friction_per_width"]))
+
+
+def origin(entries: Mapping[str, Any], quantity: str) -> float:
+    """The temperature of the supplied lubricant for a temperature, °C, whose errors are over its rise; else 0."""
+    given = entries["lubricant"].get("temperature") if quantity in DEGREES else None
+    return 0.0 if given is None else to_si(given, "K") - ZERO_CELSIUS
 
 
 def columns(scene: Bearing) -> dict[str, Quantity | str]:
@@ -346,11 +356,14 @@ KIND = Kind(
         "contact_load_per_width": "load by contact",
         "film_load_per_width": "load by the film",
         "least_gap": "least gap",
+        "power_loss_per_width": "power loss",
+        **DEGREES,
     },
     reported=REPORTED,
     remarks=remarks,
     ratios={"friction_coefficient": ("friction_per_width", "load_per_width")},
     scale=scale,
+    origin=origin,
     columns=columns,
     numbers=bearing_numbers,
     symbols=NUMBERS,

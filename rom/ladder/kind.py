@@ -86,6 +86,11 @@ def no_surface(_scene: Any) -> None:
     return
 
 
+def from_zero(_entries: Mapping[str, Any], _quantity: str) -> float:
+    """Return 0, for kinds whose quantities are measured from zero."""
+    return 0.0
+
+
 def always_lawful(_entries: Mapping[str, Any]) -> bool:
     """Return False, for kinds whose error laws hold for all of their scenes."""
     return False
@@ -162,6 +167,8 @@ class Kind:
     samples : by the name of a further set of random scenes by which its models are judged, beside those of the kind,
         the models whose laws of the resolution are fitted to them.
     ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
+    origin : origin(entries, quantity), the value from which the size of a quantity is measured, such as the temperature
+        of the supplied lubricant of a temperature; 0 by default.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
         values of the reference by quantity, as numbers or arrays.
     columns : columns(scene), dimensionless numbers and texts of a scene for a table of many cases.
@@ -199,6 +206,7 @@ class Kind:
     numbers: Callable[[Any], Mapping[str, float]]
     symbols: Mapping[str, str]
     excluded: str | Callable[[Any], str]
+    origin: Callable[[Mapping[str, Any], str], float] = from_zero
     others: Mapping[str, str] = field(default_factory=dict)
     reported: Mapping[str, str] = field(default_factory=dict)
     remarks: Callable[[Mapping[str, Any], Mapping[str, Quantity]], Sequence[str]] = nothing_remarked
@@ -233,6 +241,11 @@ class Kind:
         """The keys of the same table that an override of a key by a value removes."""
         keys = self.replaces.get(key, ())
         return keys(value) if callable(keys) else keys
+
+    @property
+    def named(self) -> Mapping[str, str]:
+        """The names in a sentence of all quantities that a result may show, those in ``titles`` first."""
+        return {**self.titles, **{name: title for name, title in self.reported.items() if name not in self.titles}}
 
     def excluded_from(self, scene: Scene) -> str:
         """The effects that no model of the kind includes for a scene, in words."""
@@ -303,7 +316,13 @@ class Kind:
 
     def scale_of(self, result: Result, quantity: str) -> float:
         """The size by which an error in a quantity is divided, if this result is the reference."""
-        return float(self.scale({name: one.value for name, one in result.quantities.items()}, quantity))
+        values = {name: one.value for name, one in result.quantities.items()}
+        return self.size_of(result.provenance["scene"], values, quantity)
+
+    def size_of(self, entries: Mapping[str, Any], values: Mapping[str, float], quantity: str) -> float:
+        """The size by which an error in a quantity is divided, of values for a scene with these entries."""
+        from_origin = values[quantity] - self.origin(entries, quantity)
+        return float(self.scale({**values, quantity: from_origin}, quantity))
 
     def shared(self, *results: Result) -> tuple[str, ...]:
         """The names of the compared quantities that all of these results have and whose size in the last is not 0."""

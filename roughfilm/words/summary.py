@@ -35,14 +35,16 @@ def value_of(result: Result, quantity: str) -> str:
     """The value of a quantity with its unit and numerical uncertainty in per cent, such as "load 12.3 N/m ± 0.5 %"."""
     kind = kind_of(result)
     if quantity not in result.quantities:
-        return f"no {kind.titles[quantity]}"
+        return f"no {kind.named[quantity]}"
     name = whole(quantity, result)
     of_all = " of the whole bearing" if name.startswith("bearing_") else ""
-    title, shown = f"{kind.titles[quantity]}{of_all}", without_round_off(result.quantities)[name]
+    title, shown = f"{kind.named[quantity]}{of_all}", without_round_off(result.quantities)[name]
     size, unit = scale_of(shown.unit, abs(shown.value))
     own = result[quantity]
     relative = math.nan if own.uncertainty is None or shown.value == 0 else own.uncertainty / abs(own.value)
     bar = f" ± {percent(relative)}" if relative >= LEAST_STATED else ""
+    if bar and own.unit == "degC" and own.uncertainty is not None:  # its zero is not that of temperature
+        bar = f" ± {own.uncertainty:.2g} K"
     return f"{title} {digits(shown.value / size)}{unit and f' {unit}'}{bar}"
 
 

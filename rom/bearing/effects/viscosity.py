@@ -122,7 +122,7 @@ def viscosity_omitted(scene: Bearing, model: Model[Bearing], quantity: str) -> O
     names = films.left_out(best, own)
     where = " of the smooth film" if films.smooth else ""
     changes = "change" if len(names) > 1 else "changes"
-    title = kind_of_scene(scene).titles[quantity]
+    title = kind_of_scene(scene).named[quantity]
     reason = f"{_listed(names)} {changes} the {title}{where} by about {share(abs(change))}"
     others = _by_others(films, quantity, best, above[:-1])
     return Omission(part=MARGIN * abs(change), reason=reason + others, source=ON_COARSE_GRID)

@@ -35,7 +35,7 @@ def waves_omitted(scene: Bearing, model: Model[Bearing], quantity: str) -> Omiss
     resolved, averaged = pair
     size = kind_of(resolved).scale_of(resolved, quantity)
     part = abs(resolved[quantity].value - averaged[quantity].value) / size if size > 0 else 0.0
-    title = kind_of_scene(scene).titles[quantity]
+    title = kind_of_scene(scene).named[quantity]
     return Omission(
         part=part, reason=f"the length of the ridges changes the {title} by about {share(part)}", source=ON_COARSE_GRID
     )

@@ -87,7 +87,9 @@ def findings(scenes: Sequence[Judged]) -> Iterator[Finding]:
                 if quantity not in one.truth or model == one.by:
                     pass
                 elif expected is not None:
-                    promises.append((EXPECTED, one.truth[quantity], expected * float(kind.scale(values, quantity))))
+                    promises.append(
+                        (EXPECTED, one.truth[quantity], expected * kind.size_of(one.scene, values, quantity))
+                    )
                 elif bar is not None and model not in one.own:
                     promises.append((UNCERTAINTY, one.truth[quantity], bar))
                 for promise, (true, truth_uncertainty), stated in promises:
@@ -215,7 +217,8 @@ def relative_error(scene: Judged, advice: Advised) -> tuple[float, float] | None
     if advice.value is None or advice.quantity not in scene.truth or advice.model == scene.by:
         return None
     true, truth_uncertainty = scene.truth[advice.quantity]
-    size = float(kind_of_laws(scene.kind).scale({name: pair[0] for name, pair in scene.truth.items()}, advice.quantity))
+    values = {name: pair[0] for name, pair in scene.truth.items()}
+    size = kind_of_laws(scene.kind).size_of(scene.scene, values, advice.quantity)
     return abs(advice.value - true) / size, truth_uncertainty / size
 
 
