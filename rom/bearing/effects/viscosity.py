@@ -23,6 +23,9 @@ CELLS = {True: (128, 512), False: (32, 64)}
 MARGIN = 1.1
 """Change on fine grids over that on the coarse one that 95 of 100 random scenes do not exceed."""
 
+OIL_CONDUCTIVITY = 0.13
+"""Thermal conductivity of oils, W/(m K), where a lubricant has none; 0.11 to 0.15 W/(m K) by Cragoe 1929."""
+
 EFFECTS: Mapping[Effect, str] = {
     Effect.SHEAR_THINNING: "shear thinning",
     Effect.HEATING: "heating",
@@ -45,6 +48,7 @@ class CoarseFilms:
     results : results by the name of the model.
     failures : messages of models without a result, by name.
     smooth : whether the rough wall of the scene was replaced by a smooth one.
+    conducts_as_oil : whether the lubricant has ``OIL_CONDUCTIVITY``, as none is given.
     absent : effects that the scene does not have.
     """
 
@@ -52,6 +56,7 @@ class CoarseFilms:
     results: Mapping[str, Result]
     failures: Mapping[str, str]
     smooth: bool
+    conducts_as_oil: bool
     absent: frozenset[str]
 
     def effects(self, model: Model[Bearing]) -> frozenset[Effect]:
@@ -90,8 +95,8 @@ class CoarseFilms:
 def coarse_films(scene: Bearing) -> CoarseFilms | None:
     """The films of a scene by these models; None where the viscosity changes neither with temperature nor with shear.
 
-    A rough surface, whose flow factors are costly, is replaced by a smooth wall; stored tables and ridges are kept. The
-    results are kept in memory.
+    A rough surface, whose flow factors are costly, is replaced by a smooth wall; stored tables and ridges are kept. A
+    lubricant without a conductivity has that of oils. The results are kept in memory.
     """
     lubricant = scene.lubricant
     if lubricant.thermoviscosity is None and lubricant.shear_thinning is None:
@@ -121,6 +126,7 @@ def viscosity_omitted(scene: Bearing, model: Model[Bearing], quantity: str) -> O
         return None
     names = films.left_out(best, own)
     where = " of the smooth film" if films.smooth else ""
+    where += f" at {OIL_CONDUCTIVITY:g} W/(m K), of oils" if films.conducts_as_oil and best.name == "across" else ""
     changes = "change" if len(names) > 1 else "changes"
     title = kind_of_scene(scene).named[quantity]
     reason = f"{_listed(names)} {changes} the {title}{where} by about {share(abs(change))}"
@@ -146,7 +152,11 @@ def _films(question: KeyedScene) -> CoarseFilms | None:
     smooth = isinstance(scene.roughness, RoughSurface)
     if smooth:
         scene = scene.model_copy(update={"roughness": None, "asperities": None})
-    absent = absent_effects(scene)
+    absent, lubricant = absent_effects(scene), scene.lubricant
+    conducts_as_oil = lubricant.conductivity is None and not lubricant.lacking
+    if conducts_as_oil:
+        update = {"lubricant": lubricant.model_copy(update={"conductivity": OIL_CONDUCTIVITY})}
+        scene = scene.model_copy(update=update)
     wanted = {Effect.SIDE_FLOW, Effect.CAVITATION, Effect.PRESSURE_DEPENDENCE}
     applying = [
         model for model in ladder(rom, kind="bearing") if wanted <= model.keeps and model.applies(scene).applies
@@ -160,7 +170,14 @@ def _films(question: KeyedScene) -> CoarseFilms | None:
         results, failures = _solved(scene, models, cells)
         if not failures:
             break
-    return CoarseFilms(models=models, results=results, failures=failures, smooth=smooth, absent=absent)
+    return CoarseFilms(
+        models=models,
+        results=results,
+        failures=failures,
+        smooth=smooth,
+        conducts_as_oil=conducts_as_oil,
+        absent=absent,
+    )
 
 
 def _solved(scene: Bearing, models: Sequence[Model[Bearing]], cells: int) -> tuple[dict[str, Result], dict[str, str]]:
