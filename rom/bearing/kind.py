@@ -23,6 +23,7 @@ from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES, RoughSurface
 from roughfilm.rom.bearing.scene import Bearing, BearingMotion
 from roughfilm.rom.bearing.supply.tables import SUPPLIES
+from roughfilm.rom.bearing.thermal.outside import outside_of_lubricant
 from roughfilm.rom.bearing.thermal.tables import WALLS
 from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import InTime, Kind, Omission
@@ -317,6 +318,11 @@ def in_time(scene: Bearing, within: float) -> InTime | None:
 def window(scene: Bearing) -> Surface | None:
     """The rough surface of one of the walls; None if the roughness is another one."""
     return scene.roughness.read() if isinstance(scene.roughness, RoughSurface) else None
+
+
+def outside(scene: Bearing, _model: Any, result: Result | None) -> list[str]:
+    """The ways in which a scene or its solution is outside the range of its models."""
+    return outside_of_lubricant(scene, result)
 
 
 def excluded(scene: Bearing) -> str:

@@ -38,6 +38,9 @@ Conductivity = Annotated[float, InUnit("W/(m*K)")]
 AGREEMENT = 1e-3
 """Relative difference up to which a given viscosity agrees with that of a law."""
 
+HOTTEST_BEARING = 398.15
+"""Highest temperature of a bearing that ISO 7902-3 permits, K: 90 to 125 °C by the kind and amount of its oil."""
+
 MAX_BEYOND = 100.0
 """Temperature beyond the valid range of a law, K, from which on a film is no answer."""
 
@@ -292,10 +295,10 @@ class BearingLubricant(Fluid):
             "add it for the heat of the film, or name an oil"
         ]
 
-    def temperature_warnings(self, lowest: float, highest: float) -> list[str]:
-        """A warning if temperatures, K, lie outside of the valid range of the law of the viscosity.
+    def beyond(self, lowest: float, highest: float) -> list[str]:
+        """The sentence that temperatures, K, lie outside of the valid range of the law of the viscosity; none inside.
 
-        More than ``MAX_BEYOND`` outside of it, the warning says that the film is no answer.
+        More than ``MAX_BEYOND`` outside of it, it says that the film is no answer.
         """
         law = self.thermoviscosity
         if law is None or self.temperature is None:
@@ -307,11 +310,25 @@ class BearingLubricant(Fluid):
         if low <= lowest and highest <= high:
             return []
         ends = f"{celsius(lowest)}" if lowest == highest else f"{celsius(lowest)} to {celsius(highest)}"
-        allowed = f"from {celsius(low)}" if math.isinf(high) else f"from {celsius(low)} to {celsius(high)}"
-        valid = f"temperature: {ends}; the law {law.law} of the viscosity is valid {allowed}"
+        allowed = f"from {celsius(low)} to {celsius(high)}"
+        own = law.ends if law.narrowed(0.0, math.inf) == (0.0, math.inf) else ""
+        valid = f"temperature: {ends}; the law {law.law} of the viscosity is valid {allowed}{own}"
         if max(low - lowest, highest - high) <= MAX_BEYOND:
             return [valid]
         return [
             f"{valid}: this is no answer, as it is more than {MAX_BEYOND:g} K beyond; change the scene "
             "so that the film stays within, or give a law that is valid there"
+        ]
+
+    def temperature_warnings(self, lowest: float, highest: float) -> list[str]:
+        """The warnings about temperatures of a film, K: outside of the range of its law, and hot for an oil."""
+        return self.beyond(lowest, highest) + self.hot(highest)
+
+    def hot(self, highest: float) -> list[str]:
+        """A warning if the highest temperature, K, is above that which standards permit for bearings with an oil."""
+        if self.oil is None or not self.oil.startswith(("ISO VG", "SAE")) or highest <= HOTTEST_BEARING:
+            return []
+        return [
+            f"temperature: {celsius(highest)}; ISO 7902-3 permits {celsius(HOTTEST_BEARING)} at most in bearings with "
+            "mineral oil, as the oil ages and white metal softens"
         ]

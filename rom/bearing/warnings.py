@@ -92,8 +92,8 @@ def pad_warnings(scene: Bearing, solution: Solution) -> list[str]:
 def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:
     """Warnings about boundary conditions.
 
-    They are no film, starved inlets without sliding or below ambient, pressures at sides that the model leaves out,
-    jumps of the pressure, and lubricants that are supplied outside of the range of their viscosity.
+    They are no film, starved inlets without sliding or below ambient, pressures at sides that the model leaves out, and
+    jumps of the pressure.
     """
     ends, lowest = solution.problem.ends, scene.lubricant.cavitation_pressure
     warnings = [*(scene.roughness.warnings() if isinstance(scene.roughness, RoughSurface) else ())]
@@ -113,9 +113,7 @@ def scene_warnings(scene: Bearing, solution: Solution) -> list[str]:
             f"boundary.sides: one line leaves out the pressure of {fed:.3g} Pa at a side, while the largest one in the "
             f"film is {highest:.3g} Pa; take reynolds_cavitating"
         )
-    supplied = scene.lubricant.temperature
-    outside = [] if supplied is None else scene.lubricant.temperature_warnings(supplied, supplied)
-    return warnings + outside + _infinite_flows(scene, solution)
+    return warnings + _infinite_flows(scene, solution)
 
 
 def _infinite_flows(scene: Bearing, solution: Solution) -> list[str]:

@@ -11,7 +11,7 @@ from typing import Any
 
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.rom.lubricants.thermal.index import kinematic_viscosity_100
-from roughfilm.rom.lubricants.thermal.law import ZERO_CELSIUS, celsius
+from roughfilm.rom.lubricants.thermal.law import LIQUID, ZERO_CELSIUS, celsius
 from roughfilm.rom.lubricants.thermal.walther import GRADES
 
 DATA = Path(__file__).with_name("library.toml")
@@ -27,9 +27,6 @@ REYN = 6894.757293168
 
 SAE_RANGE = (10.0, 140.0)
 """Temperatures of the chart to which the viscosities of SAE grades are fitted, °C."""
-
-LIQUID = (-60.0, 250.0)
-"""Temperatures between which a mineral oil is supplied as a liquid, °C: above its pour point, below decomposition."""
 
 OTHERS = "give thermoviscosity, density, heat_capacity and conductivity of its data sheet in place of oil"
 """The remedy for a liquid that is not in the library."""
@@ -130,10 +127,10 @@ def entries_of(name: str, temperature: float) -> dict[str, Any]:
     rows = next((one["rows"] for one in _data()["liquid"] if one["name"] == name), None)
     if rows is not None:
         return _of_rows(name, rows, temperature)
-    if not LIQUID[0] <= temperature - ZERO_CELSIUS <= LIQUID[1]:
+    if not LIQUID[0] <= temperature <= LIQUID[1]:
         raise ValueError(
-            f"temperature: got {celsius(temperature)}; it must be from {LIQUID[0]:g} °C to {LIQUID[1]:g} °C, between "
-            "which mineral oils are supplied; check the unit"
+            f"temperature: got {celsius(temperature)}; it must be from {celsius(LIQUID[0])} to {celsius(LIQUID[1])}, "
+            "between which mineral oils are supplied; check the unit"
         )
     if name in grades:
         law: dict[str, Any] = {"law": "iso_vg", "grade": grades[name]}

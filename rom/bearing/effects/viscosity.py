@@ -56,8 +56,8 @@ class CoarseFilms:
     results: Mapping[str, Result]
     failures: Mapping[str, str]
     smooth: bool
-    conducts_as_oil: bool
     absent: frozenset[str]
+    conducts_as_oil: bool = False
 
     def effects(self, model: Model[Bearing]) -> frozenset[Effect]:
         """The effects on the viscosity that a model keeps in the scene."""

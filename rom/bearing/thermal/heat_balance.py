@@ -237,12 +237,12 @@ def solve_heat_balance(solver: Model[Bearing], scene: Bearing, request: CheckedR
         details={**result.numerics.details, "heat_balance": error, "heated_films": float(films)},
     )
     temperature = _values(result)[EFFECTIVE] + ZERO_CELSIUS
-    beyond = scene.lubricant.temperature_warnings(temperature, temperature)
+    hot = scene.lubricant.hot(temperature)
     return replace(
         result,
         numerics=numerics,
         provenance={**result.provenance, "scene": scene_entries(scene)},
-        warnings=tuple(dict.fromkeys([*result.warnings, *beyond])),
+        warnings=tuple(dict.fromkeys([*result.warnings, *hot])),
     )
 
 

@@ -16,6 +16,10 @@ Temperature = Annotated[float, InUnit("K")]
 ZERO_CELSIUS = 273.15
 """0 °C, K."""
 
+LIQUID = (213.15, 523.15)
+"""Temperatures between which laws without a range of their own are valid, K: at -60 °C and below no oil flows, and at
+250 °C and above they decompose."""
+
 LOG_LIMIT = 200.0
 """Logarithm of a viscosity over a usual one, above which a law refuses a temperature as too low."""
 
@@ -77,8 +81,11 @@ class TemperatureLaw(Part):
     """A law of the viscosity over the temperature T, K, at cavitation pressure.
 
     Each law has the keys ``valid_from`` and ``valid_to``, temperatures between which it is valid, K; outside of them a
-    result has a warning.
+    result is outside the range of its model.
     """
+
+    ends: ClassVar[str] = ""
+    """What the ends of the range are by default, in words."""
 
     def narrowed(self, low: float, high: float) -> tuple[float, float]:
         """The range of a law, K, with the given ends in the place of its own."""

@@ -43,7 +43,7 @@ def rows_of_file(columns: Mapping[str, str], header: str) -> Callable[[Any], Any
 
 
 class TabulatedViscosity(AbsoluteLaw):
-    """ln η by monotone cubics (PCHIP) of T through measured points, straight beyond them, where a result has a warning.
+    """ln η by monotone cubics (PCHIP) of T through measured points, straight beyond them, out of range.
 
     ``table`` names a CSV file (``temperature (degC), viscosity (mPa*s)``). Source: Fritsch and Carlson 1980,
     doi:10.1137/0717021.

@@ -14,6 +14,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, PositiveNumber
 from roughfilm.contact.foundation.units import converted
 from roughfilm.rom.lubricants.thermal.law import (
+    LIQUID,
     LOG_LIMIT,
     AbsoluteLaw,
     AnchoredLaw,
@@ -101,7 +102,7 @@ class RoelandsTemperature(AnchoredLaw):
     Attributes
     ----------
     index : index S, about 1.2 to 1.3 for mineral oils.
-    valid_from, valid_to : temperatures between which the law is valid, K; by default all above 138 K.
+    valid_from, valid_to : temperatures between which the law is valid, K; by default -60 to 250 °C.
 
     Examples
     --------
@@ -118,7 +119,7 @@ class RoelandsTemperature(AnchoredLaw):
 
     def valid(self, supplied: Supplied) -> tuple[float, float]:  # noqa: ARG002
         """The lowest and the highest valid temperature, K."""
-        return self.narrowed(ROELANDS_TEMPERATURE, math.inf)
+        return self.narrowed(*LIQUID)
 
     def viscosity(self, temperature: Array, supplied: Supplied) -> tuple[Array, Array]:
         """The viscosity η, Pa s, and dη/dT; shape of ``temperature``, K; InputError at 138 K and below."""
@@ -142,8 +143,8 @@ class Vogel(AbsoluteLaw):
     b : constant, a difference of temperatures, K.
     c : constant, the temperature at and below which the law has no viscosity, K.
     points : three rows of temperature and viscosity, in place of the constants.
-    valid_from, valid_to : temperatures between which the law is valid, K; by default those of the points, or all above
-        c.
+    valid_from, valid_to : temperatures between which the law is valid, K; by default those of the points, or -60 to
+        250 °C above c.
 
     Examples
     --------
@@ -204,8 +205,10 @@ class Vogel(AbsoluteLaw):
 
     def valid(self) -> tuple[float, float]:
         """The lowest and the highest valid temperature, K: the given ones, or those of the points."""
-        ends = (self.constants[2], math.inf) if self.points is None else (self.points[0][0], self.points[-1][0])
-        return self.narrowed(*ends)
+        if self.points is not None:
+            return self.narrowed(self.points[0][0], self.points[-1][0])
+        low, high = LIQUID
+        return self.narrowed(max(low, self.constants[2]), high)
 
     def viscosity(self, temperature: Array) -> tuple[Array, Array]:
         """The viscosity η, Pa s, and dη/dT; shape of ``temperature``, K; InputError near c and below."""

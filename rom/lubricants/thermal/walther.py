@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.entries import InUnit, plain_number
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.rom.lubricants.thermal.index import LEAST_HOT, MOST_INDEX, kinematic_viscosity_100
-from roughfilm.rom.lubricants.thermal.law import LOG_LIMIT, AbsoluteLaw, Temperature
+from roughfilm.rom.lubricants.thermal.law import LOG_LIMIT, ZERO_CELSIUS, AbsoluteLaw, Temperature
 from roughfilm.rom.lubricants.thermal.viscosity import check_points
 
 KinematicViscosity = Annotated[float, InUnit("m^2/s")]
@@ -30,6 +30,24 @@ GRADES = {2: 2.2, 3: 3.2, 5: 4.6, 7: 6.8} | {
     grade: float(grade) for grade in (10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000, 1500, 2200, 3200)
 }
 """Midpoint of each viscosity grade of ISO 3448, mm²/s at 40 °C; the grade spans 10 % to both sides."""
+
+POUR_AND_FLASH = {
+    7: (-30, 115),
+    10: (-30, 125),
+    15: (-24, 140),
+    22: (-21, 165),
+    32: (-18, 175),
+    46: (-15, 185),
+    68: (-12, 195),
+    100: (-12, 205),
+    150: (-12, 215),
+    **dict.fromkeys((220, 320, 460), (-9, 200)),
+    **dict.fromkeys((680, 1000), (-3, 200)),
+    **dict.fromkeys((1500, 2200, 3200), (0, 200)),
+}
+"""Pour and flash points of mineral oils by their grade, °C: the highest and the lowest that DIN 51524-2 permits up to
+ISO VG 150 and DIN 51517-3 up to 1000, rounded; typical ones of the others. Between them an oil is a liquid whose vapour
+does not burn."""
 
 MAX_STEPS = 20
 """Largest number of steps in which a viscosity is sought; five are enough in the range of the law."""
@@ -134,7 +152,8 @@ class IsoGrade(AbsoluteLaw):
     ----------
     grade : viscosity grade, such as 32 of ISO VG 32.
     viscosity_index : viscosity index, 95 by default, that of a solvent-refined mineral oil.
-    valid_from, valid_to : temperatures between which the law is valid, K; by default those of Walther's law.
+    valid_from, valid_to : temperatures between which the law is valid, K; by default from the pour point to the flash
+        point of mineral oils of the grade (``POUR_AND_FLASH``).
 
     Examples
     --------
@@ -143,6 +162,7 @@ class IsoGrade(AbsoluteLaw):
     46 mm²/s 6.644 mm²/s
     """
 
+    ends: ClassVar[str] = ", pour and flash point of such oils"
     kinematic: ClassVar[bool] = True
     law: Literal["iso_vg"]
     grade: int
@@ -176,7 +196,8 @@ class IsoGrade(AbsoluteLaw):
 
     def valid(self) -> tuple[float, float]:
         """The lowest and the highest valid temperature, K."""
-        return self.narrowed(*self.walther.valid())
+        pour, flash = POUR_AND_FLASH[self.grade]
+        return self.narrowed(pour + ZERO_CELSIUS, flash + ZERO_CELSIUS)
 
     def viscosity(self, temperature: Array) -> tuple[Array, Array]:
         """The kinematic viscosity ν, m²/s, and dν/dT; shape of ``temperature``, K; InputError if it is too low."""

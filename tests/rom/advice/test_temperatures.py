@@ -44,7 +44,7 @@ def test_every_quantity_that_a_result_may_show_can_be_named(wedge, title):
 
 
 def test_a_name_that_no_quantity_has_is_refused(wedge):
-    with pytest.raises(InputError, match="'highest temperature'.*another one that a result shows"):
+    with pytest.raises(InputError, match=r"'highest temperature'.*another one that a result shows"):
         wanted(wedge, "heat of the day")
 
 

@@ -139,10 +139,23 @@ def test_wrong_input_is_refused_in_one_line(entries, words):
     assert "\n" not in str(refused.value)
 
 
-def test_a_supply_outside_of_the_range_of_the_viscosity_has_a_warning():
+def test_a_supply_outside_of_the_range_of_the_viscosity_is_marked():
     cold = rf.solve(scene(oil="SAE 30", temperature="5 degC"), model="reynolds_incompressible")
-    assert "temperature: 5 °C; the law vogel of the viscosity is valid from 10 °C to 140 °C" in cold.warnings
+    assert "temperature: 5 °C; the law vogel of the viscosity is valid from 10 °C to 140 °C" in cold.outside
+    assert cold.expected_error == {}
     assert oil("SAE 30", 40).temperature_warnings(313.15, 313.15) == []
+
+
+@pytest.mark.parametrize("name", [one for one in sources() if "glycol" not in one and one != "water"])
+def test_every_mineral_oil_has_a_range_between_its_pour_and_its_flash_point(name):
+    """An oil at 40 °C is in its range; at 240 °C it burns, and at -45 °C it does not flow."""
+    one = oil(name, 40)
+    assert one.beyond(273.15 + 15, 273.15 + 110) == []
+    for temperature in (-45.0, 240.0):
+        (sentence,) = one.beyond(temperature + 273.15, temperature + 273.15)
+        assert sentence.startswith(f"temperature: {temperature:g} °C; the law ")
+    assert one.hot(273.15 + 120) == []
+    assert "ISO 7902-3 permits 125 °C at most" in one.hot(273.15 + 130)[0]
 
 
 def test_the_table_of_the_manual_has_the_numbers_of_the_library():

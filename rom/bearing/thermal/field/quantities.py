@@ -116,14 +116,14 @@ class HeatedOutputs:
         return self.base.of_finest(with_friction(scene, self.heated(solution).friction), solution)
 
     def warnings(self, scene: Bearing, solution: Solution) -> list[str]:
-        """Warnings about temperatures outside of the range of the law of the viscosity, and about their iteration."""
+        """Warnings about hot films, about the input on which they depend most, and about their iteration."""
         changes = solution.changes if isinstance(solution, HeatedSolution) else (0.0,)
         apart = [
             f"temperature: the viscosity of the film and that at its temperatures still differ by {changes[-1]:.1e} "
             f"after {len(changes)} films, above the tolerance of {FIELD_TOLERANCE:.0e}; take more cells"
         ]
         temperature = self.heated(solution).temperature
-        beyond = scene.lubricant.temperature_warnings(float(temperature.min()), float(temperature.max()))
+        hot = scene.lubricant.hot(float(temperature.max()))
         unsettled = apart if changes[-1] > FIELD_TOLERANCE else []
         found = self.heated(solution)
         scene = with_friction(scene, found.friction)
@@ -132,7 +132,7 @@ class HeatedOutputs:
             plain, liquid = self.base.quantities(scene, solution), scene.lubricant.liquid
             unsettled = [*unsettled, *leading_input(scene, solution, plain, liquid, mean, insulated=True)]
         circulates = isinstance(solution, HeatedSolution) and keeps_its_heat(solution)
-        return [*self.base.warnings(scene, solution), *beyond, *unsettled, *([CIRCULATES] if circulates else [])]
+        return [*self.base.warnings(scene, solution), *hot, *unsettled, *([CIRCULATES] if circulates else [])]
 
 
 def _quantities(solution: Solution, found: HeatedFilm) -> dict[str, Quantity]:

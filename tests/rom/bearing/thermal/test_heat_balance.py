@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import lambertw
 
+import roughfilm as rf
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.model import Effect
@@ -322,12 +323,25 @@ def test_thermal_runaway_is_one_line():
         solved(WEDGE, oil=oil)
 
 
-def test_a_temperature_outside_of_the_range_of_its_law_has_a_warning():
+def test_a_temperature_outside_of_the_range_of_its_law_is_marked():
     """The range of the law is that about the supply temperature, also for a film that is hot."""
     hot = solved(WEDGE | {"film": "5 um", "rise": "5 um"}, speed="20 m/s")
     assert hot["effective_temperature"].value > COLD + 30
-    assert [one for one in hot.warnings if one.startswith("temperature: ") and "from 10 °C to 70 °C" in one]
-    assert not [one for one in solved(WEDGE).warnings if one.startswith("temperature: ")]
+    assert [one for one in hot.outside if one.startswith("temperature: ") and "from 10 °C to 70 °C" in one]
+    assert solved(WEDGE).outside == ()
+
+
+@pytest.mark.parametrize("temperature", ["-20 degC", "220 degC"])
+def test_a_supply_outside_of_the_range_of_its_oil_is_marked_by_every_model(temperature):
+    """VG 46 flows above -15 °C and burns above 185 °C; nothing is promised, and no model is advised."""
+    tables = {"geometry": WEDGE, "motion": {"speed": "0.1 m/s"}}
+    oil = {"oil": "ISO VG 46", "temperature": temperature}
+    scene = read_scene({"name": "cold", "kind": "bearing", "lubricant": oil, **tables})
+    for name in ("reynolds_cavitating", "heat_balance", "adiabatic"):
+        result = rf.solve(scene, model=name, resolution=16)
+        assert "valid from -15 °C to 185 °C, pour and flash point of such oils" in result.outside[0], name
+        assert result.expected_error == {}
+    assert rf.advise(scene).chosen is None
 
 
 def test_a_film_without_flow_is_cooled_as_a_bearing_in_still_air_and_says_so():

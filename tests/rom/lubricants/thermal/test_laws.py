@@ -184,7 +184,8 @@ def test_valid_ranges():
     assert law("tabulated").valid() == pytest.approx((293.15, 373.15))
     thin = law("walther of a thin liquid")
     assert 1e6 * thin.viscosity(np.array([thin.valid()[1]]))[0][0] == pytest.approx(0.21, rel=1e-9)
-    assert law("iso_vg").valid() == law("walther", {"points": law("iso_vg").walther.model_dump()["points"]}).valid()
+    assert law("vogel", ENTRIES["vogel by constants"]).valid() == pytest.approx((213.15, 523.15))
+    assert law("roelands").valid(SUPPLIED) == pytest.approx((213.15, 523.15))
 
 
 @pytest.mark.parametrize("name", ENTRIES)

@@ -1,7 +1,7 @@
-"""Wedges whose temperature varies across the film, against a finite-difference program that shares no code with this one.
+"""Wedges whose temperature varies across the film, against finite differences that share no code with the project.
 
-With ζ = z/h from the sliding wall, where the flow of each cell is that of the velocity τ/η integrated from the wall, the
-energy of the cells is marched along the film (implicit, upwind), and the flow q follows from ∫ dp/dx dx = 0.
+With ζ = z/h from the sliding wall the flow of a cell is that of the velocity ∫ τ/η dz from the wall. The energy of the
+cells is marched along the film (implicit, upwind), and the flow q follows from ∫ dp/dx dx = 0.
 """
 
 import math
