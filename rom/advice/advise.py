@@ -329,10 +329,11 @@ def _considered(task: AdviceTask, model: Model) -> tuple[int, ...]:
 
 
 def _most_complete(task: AdviceTask, judged: Sequence[ModelVerdict]) -> ModelVerdict | None:
-    """The verdict on the most complete model that runs here and has not failed; None if there is none."""
+    """The verdict on the most complete model, in its range if one is, that runs here; None if all have failed."""
     failing = (Verdict.NOT_HERE, Verdict.FAILED)
     by_name = {one.model: one for one in judged if one.verdict not in failing}
     here = [model for model in task.models if model.name in by_name and model.available().available]
+    here = [model for model in here if not task.outside[model.name]] or here
     return by_name[best_for(task.scene, here).name] if here else None
 
 

@@ -114,8 +114,9 @@ class AdviceTask:
         return chain
 
     def is_best(self, model: Model) -> bool:
-        """Whether no other model for the scene leaves out less."""
-        return model.name == best_for(self.scene, self.models).name
+        """Whether no other model for the scene leaves out less; one outside its range counts if all are."""
+        inside = [one for one in self.models if not self.outside.get(one.name)]
+        return model.name == best_for(self.scene, inside or self.models).name
 
     def has_grid_law_alone(self, model: Model) -> bool:
         """Whether a model has a law of the error by its resolution, but none of what it leaves out."""

@@ -23,7 +23,7 @@ from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.roughness import ROUGHNESSES, RoughSurface
 from roughfilm.rom.bearing.scene import Bearing, BearingMotion
 from roughfilm.rom.bearing.supply.tables import SUPPLIES
-from roughfilm.rom.bearing.thermal.outside import outside_of_lubricant
+from roughfilm.rom.bearing.thermal.outside import heat_that_stays, outside_of_lubricant
 from roughfilm.rom.bearing.thermal.tables import WALLS
 from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import InTime, Kind, Omission
@@ -289,12 +289,12 @@ def missing(scene: Bearing, model: Any) -> float:
 
 
 def outside(scene: Bearing, model: Any, result: Result | None) -> tuple[str, ...]:
-    """The sentences on a scene that is surely outside the range of a model, before it is solved."""
+    """The sentences on a scene that is surely outside the range of a model, or whose temperatures are."""
     if result is not None:
-        return ()  # each model judges the film that it has found
+        return outside_of_lubricant(scene, result)  # each model judges the film that it has found
     from roughfilm.rom.bearing.outside import scene_outside  # slow to import
 
-    return scene_outside(scene, model)
+    return (*outside_of_lubricant(scene), *heat_that_stays(scene, model), *scene_outside(scene, model))
 
 
 def steady(scene: Bearing) -> Bearing:
@@ -318,11 +318,6 @@ def in_time(scene: Bearing, within: float) -> InTime | None:
 def window(scene: Bearing) -> Surface | None:
     """The rough surface of one of the walls; None if the roughness is another one."""
     return scene.roughness.read() if isinstance(scene.roughness, RoughSurface) else None
-
-
-def outside(scene: Bearing, _model: Any, result: Result | None) -> list[str]:
-    """The ways in which a scene or its solution is outside the range of its models."""
-    return outside_of_lubricant(scene, result)
 
 
 def excluded(scene: Bearing) -> str:

@@ -320,10 +320,6 @@ class BearingLubricant(Fluid):
             "so that the film stays within, or give a law that is valid there"
         ]
 
-    def temperature_warnings(self, lowest: float, highest: float) -> list[str]:
-        """The warnings about temperatures of a film, K: outside of the range of its law, and hot for an oil."""
-        return self.beyond(lowest, highest) + self.hot(highest)
-
     def hot(self, highest: float) -> list[str]:
         """A warning if the highest temperature, K, is above that which standards permit for bearings with an oil."""
         if self.oil is None or not self.oil.startswith(("ISO VG", "SAE")) or highest <= HOTTEST_BEARING:

@@ -382,10 +382,14 @@ def _check_range(film: _Film, heat: Array, largest: float, sweeps: int) -> None:
         return
     size, grid = np.abs(heat).max(axis=2), film.solution.grid
     i, j = np.unravel_index(int(np.where(np.isfinite(size), size, np.inf).argmax()), size.shape)
+    polar = film.solution.problem.shape.polar
+    place = f"{np.degrees(grid.x[i]):.4g}° of the angle, radius" if polar else f"x = {grid.x[i]:.4g} m, y ="
+    insulated = not any(wall.holds for wall in film.walls)
+    remedy = "let a wall take heat, or take heat_balance" if insulated else "lower the speed or the viscosity"
     raise ConvergenceError(
         f"temperature across the film: after {sweeps} sweeps it differs by more than {LARGEST_RISE:g} K from that of "
-        f"the supply at x = {grid.x[i]:.4g} m, y = {grid.y[j]:.4g} m, where no lubricant is liquid; lower the speed or "
-        "the viscosity, or the jump of the pressure if edges of the film meet there, or cool the film more",
+        f"the supply at {place} {grid.y[j]:.4g} m, where no lubricant is liquid; {remedy}, or lower the jump of the "
+        "pressure if edges of the film meet there",
         outcome=Outcome.DIVERGED,
         iterations=sweeps,
     )

@@ -105,7 +105,7 @@ def heat_warnings(scene: Bearing, curves: Sequence[DynamicCurve]) -> list[str]:
     lubricant = scene.lubricant
     points = [point for curve in curves for point in curve.points]
     found = [point.numbers["temperature"] + ZERO_CELSIUS for point in points if "temperature" in point.numbers]
-    return lubricant.temperature_warnings(min(found), max(found)) if found else lubricant.left_out_heat
+    return lubricant.hot(max(found)) if found else lubricant.left_out_heat
 
 
 def warnings_of(scene: Bearing, curve: DynamicCurve) -> list[str]:

@@ -217,8 +217,14 @@ def dynamic_point(
         uncertainty=uncertainty,
         residual=max(instant.residual, instant.force_residual),
         cpu_s=working_time() - cpu,
-        outside=film_outside(placed(film, instant), solution),
+        outside=(*film_outside(placed(film, instant), solution), *_of_lubricant(scene, solved[-1])),
     )
+
+
+def _of_lubricant(scene: Bearing, found: Equilibrium) -> list[str]:
+    """The sentence on a film whose temperature is outside of the range of its lubricant."""
+    heated = found.temperatures
+    return [] if heated is None else scene.lubricant.beyond(heated.effective, heated.effective)
 
 
 def _equilibria(

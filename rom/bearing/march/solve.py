@@ -238,8 +238,7 @@ def march_bearing(
                     f"{', '.join(sorted(unknown))}: unknown uncertainty, as the roughness has too few points"
                 )
     if "temperature" in series.units:
-        heated = series["temperature"] + ZERO_CELSIUS
-        warnings += scene.lubricant.temperature_warnings(float(heated.min()), float(heated.max()))
+        warnings += scene.lubricant.hot(float(series["temperature"].max()) + ZERO_CELSIUS)
     infinite = Observer(duty=duty, film=film_at(duty, cells, walls_of(duty.scene))).infinite_flows
     if infinite:
         quantities |= {
@@ -286,12 +285,14 @@ def _outside(scene: Bearing, series: Series) -> tuple[str, ...]:
         found = turbulence(scene, ReynoldsNumbers(shear=shear, pressure=driven, clearance=clearance))
         return (*found, *(gas_as_liquid(scene, highest, film) if fixed else ()))
 
+    degrees = series["temperature"] + ZERO_CELSIUS if "temperature" in series.units else np.zeros(0)
+    heated = scene.lubricant.beyond(float(degrees.min()), float(degrees.max())) if degrees.size else []
     worst = sentences(numbers.max(axis=1), float(pressure.max()))
     if not worst:
-        return ()
+        return tuple(heated)
     beyond = [one for one, *step in zip(series.time, numbers.T, pressure, strict=True) if sentences(*step)]
     steps = f"at {len(beyond)} of {len(series.rows)} steps, from {beyond[0]:.4g} s to {beyond[-1]:.4g} s"
-    return tuple(f"{sentence}, {steps}" for sentence in worst)
+    return (*(f"{sentence}, {steps}" for sentence in worst), *heated)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -353,7 +353,10 @@ def stribeck_point(state: MixedState, search: Search, pressure: float) -> Stribe
         cpu_s=0.0,
         temperature=None if heated is None else heated.effective - ZERO_CELSIUS,
         outlet_temperature=None if heated is None else heated.outlet - ZERO_CELSIUS,
-        outside=film_outside(state.scene, state.solution),
+        outside=(
+            *film_outside(state.scene, state.solution),
+            *([] if heated is None else search.scene.lubricant.beyond(heated.effective, heated.effective)),
+        ),
     )
 
 

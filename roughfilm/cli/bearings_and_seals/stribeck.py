@@ -272,7 +272,7 @@ def curve_entries(
     if cells is not None and scene.asperities is not None and scene.asperities.solid_heat is not None:
         warnings.append("asperities.solid_heat: flash temperatures are left out over windows; take one surface")
     if heated := [point.temperature + ZERO_CELSIUS for point in points if point.temperature is not None]:
-        warnings += scene.lubricant.temperature_warnings(min(heated), max(heated))
+        warnings += scene.lubricant.hot(max(heated))
     return {
         "curves": [
             {

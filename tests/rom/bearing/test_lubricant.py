@@ -113,18 +113,18 @@ def test_without_a_law_there_is_no_temperature():
 
 def test_temperatures_outside_of_a_range_have_a_warning():
     one = lubricant(**ANCHORED)
-    assert one.temperature_warnings(300.0, 340.0) == []
-    assert one.temperature_warnings(300.0, 353.15) == [
+    assert one.beyond(300.0, 340.0) == []
+    assert one.beyond(300.0, 353.15) == [
         "temperature: 26.85 °C to 80 °C; the law exponential of the viscosity is valid from 10 °C to 70 °C"
     ]
-    assert lubricant(viscosity="30 mPa*s").temperature_warnings(0.0, 1e4) == []
+    assert lubricant(viscosity="30 mPa*s").beyond(0.0, 1e4) == []
 
 
 @pytest.mark.parametrize(("lowest", "highest"), [(300.0, 753.15), (170.0, 300.0)])
 def test_temperatures_far_outside_of_a_range_are_no_answer(lowest, highest):
-    (warning,) = lubricant(**ANCHORED).temperature_warnings(lowest, highest)
+    (warning,) = lubricant(**ANCHORED).beyond(lowest, highest)
     assert "valid from 10 °C to 70 °C: this is no answer, as it is more than 100 K beyond; change the scene" in warning
-    assert "no answer" not in lubricant(**ANCHORED).temperature_warnings(183.2, 443.1)[0]
+    assert "no answer" not in lubricant(**ANCHORED).beyond(183.2, 443.1)[0]
 
 
 @pytest.mark.parametrize(

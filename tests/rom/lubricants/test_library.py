@@ -143,7 +143,7 @@ def test_a_supply_outside_of_the_range_of_the_viscosity_is_marked():
     cold = rf.solve(scene(oil="SAE 30", temperature="5 degC"), model="reynolds_incompressible")
     assert "temperature: 5 °C; the law vogel of the viscosity is valid from 10 °C to 140 °C" in cold.outside
     assert cold.expected_error == {}
-    assert oil("SAE 30", 40).temperature_warnings(313.15, 313.15) == []
+    assert oil("SAE 30", 40).beyond(313.15, 313.15) == []
 
 
 @pytest.mark.parametrize("name", [one for one in sources() if "glycol" not in one and one != "water"])
