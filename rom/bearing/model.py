@@ -6,7 +6,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack
 
 from roughfilm.contact.foundation.deferred import deferred
-from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.bearing.scene import Bearing
@@ -79,8 +78,9 @@ def smooth_wall_applies(scene: Bearing, *, applies: Callable[[Bearing], Applicab
     fits = applies(scene)
     if not fits.applies or scene.roughness is None:
         return fits
-    ratio = scene.roughness.rms / expected_scene(scene).geometry.thinnest
-    return replace(fits, reason=f"{fits.reason}; treats the wall as smooth: rms height over film = {ratio:.2g}")
+    rms = scene.roughness.rms
+    of = f"rms height {rms:.2g} m" if scene.load else f"rms height over film = {rms / scene.geometry.thinnest:.2g}"
+    return replace(fits, reason=f"{fits.reason}; treats the wall as smooth: {of}")
 
 
 def newtonian_applies(scene: Bearing, *, applies: Callable[[Bearing], Applicability]) -> Applicability:

@@ -165,7 +165,13 @@ def _passed(inflows: tuple[Inflow, ...], free: list[int], pressures: Array) -> t
 def _balanced(
     inflows: tuple[Inflow, ...], free: list[int], flows: Array, slopes: Array, pressures: Array, *, ruptures: bool
 ) -> Array:
-    """The pressures at which the flows, linear in them, pass the restrictors."""
+    """The pressures at which the flows, linear in them, pass the restrictors.
+
+    Raises
+    ------
+    ConvergenceError
+        If no change of the pressures changes the flows, as where the law of viscosity stops the film of a given flow.
+    """
     found = pressures.copy()
 
     def excess(trial: Array) -> Array:
@@ -173,7 +179,14 @@ def _balanced(
 
     rest = excess(found)
     for _ in range(INNER_ITERATIONS):
-        change = -np.linalg.solve(slopes + np.diag(_passed(inflows, free, found)[1]), rest)
+        try:
+            change = -np.linalg.solve(slopes + np.diag(_passed(inflows, free, found)[1]), rest)
+        except np.linalg.LinAlgError:
+            raise ConvergenceError(
+                f"supply.{free[int(np.argmax(np.abs(found)))]}: no pressure passes its flow through the film; lower "
+                "the flow, take a thicker film, or another viscosity law",
+                outcome=Outcome.DIVERGED,
+            ) from None
         part = 1.0
         while part > 1e-6 and np.abs(excess(found + part * change)).max() >= np.abs(rest).max():
             part /= 2

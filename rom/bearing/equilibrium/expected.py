@@ -8,6 +8,7 @@ import numpy as np
 import scipy
 
 from roughfilm.contact.foundation.deferred import deferred
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.keyed import KeyedScene, keyed
@@ -76,8 +77,18 @@ def expected_film(scene: Bearing) -> ExpectedFilm:
     """The film of the smooth or averaged bearing with cavitation on a coarse grid, of a scene with a load.
 
     Where asperities touch, the film is at least twice the rms height.
+
+    Raises
+    ------
+    InputError
+        If no film carries the load.
+    ConvergenceError
+        If a film or the load does not converge.
     """
-    return _expected(keyed(scene))
+    found = _expected(keyed(scene))
+    if isinstance(found, Exception):
+        raise found.with_traceback(None)
+    return found
 
 
 _estimate = deferred("rom.bearing.equilibrium.estimate", "estimate")
@@ -85,13 +96,17 @@ _expected_place = deferred("rom.bearing.free.solve", "expected_place")
 
 
 @lru_cache(maxsize=64)
-def _expected(question: KeyedScene) -> ExpectedFilm:
+def _expected(question: KeyedScene) -> ExpectedFilm | InputError | ConvergenceError:
+    """The expected film, or the error of its search, which is as dear."""
     scene = question.scene
-    if isinstance(scene.geometry, MovingWall):
+    try:
+        if not isinstance(scene.geometry, MovingWall):
+            return ExpectedFilm(*_estimate(scene))
         place = _expected_place(scene)
-        steepness = STEEPNESS_OF_SHAFT if isinstance(scene.geometry, Shaft) else STEEPNESS_OF_PAD
-        return ExpectedFilm(scene.geometry.at(np.array(place)).thinnest, steepness, place)
-    return ExpectedFilm(*_estimate(scene))
+    except (InputError, ConvergenceError) as error:
+        return error
+    steepness = STEEPNESS_OF_SHAFT if isinstance(scene.geometry, Shaft) else STEEPNESS_OF_PAD
+    return ExpectedFilm(scene.geometry.at(np.array(place)).thinnest, steepness, place)
 
 
 def closest_film(scene: Bearing) -> float:

@@ -1,9 +1,11 @@
 """Films that become too thin on the way to an equilibrium, and why."""
 
+import math
+
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.free.idle import idle_pads
 from roughfilm.rom.bearing.geometry.journal import Shaft
@@ -11,7 +13,7 @@ from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Tilting
 from roughfilm.rom.bearing.quantities import scene_positions
 from roughfilm.rom.cavitation.motion.contact import ContactLaw
-from roughfilm.rom.cavitation.motion.coupled import Instant
+from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, settled
 
 CLOSEST = 1e-4
 """Least film over the clearance below which no equilibrium is sought."""
@@ -28,6 +30,9 @@ CLOSEST_PAD = 1e-2
 END = 0.25
 """Fraction of the length of a pad that counts as its inlet."""
 
+ROUGHLY = 1e-6
+"""Residual of a film of which only the sign of its force counts."""
+
 EVEN = 0.5
 """Least over largest film from which on a film counts as even."""
 
@@ -40,7 +45,7 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
     known = film.solved.closest
     if known > 0 and film.solved.room(instant.place) < CLOSEST_ROUGH * known:
         return InputError(
-            f"load: got {np.hypot(*force[:2]):.6g} N; no film above {known:.4g} m, the thinnest of which flow factors "
+            f"load: got {_loaded(film, force)}; no film above {known:.4g} m, the thinnest of which flow factors "
             "are known, carries it; lower the load, raise the speed or the viscosity, or add [asperities]"
         )
     thickness, geometry, x = instant.faces.thickness, film.scene.geometry, film.solved.grid.x
@@ -74,13 +79,18 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
             )
     if least >= CLOSEST * film.wall.unit[0]:
         return None
+    if not isinstance(geometry, Shaft) and _pushes(film, instant) <= 0:
+        return InputError(
+            f"load: got {_loaded(film, force)}; no film carries a load at this speed, as the walls are parallel or "
+            "widen along the sliding; give the wall a rise or pockets, or reverse the speed"
+        )
     remedies = ["lower the load", "raise the speed or the viscosity"]
     if isinstance(geometry, Lobes) and any(geometry.misalignment):
         remedies.insert(1, "lower geometry.misalignment")
     if film.scene.roughness is not None:
         remedies.append("give [asperities], which may touch")
     return InputError(
-        f"load: got {np.hypot(*force[:2]):.6g} N; no film above {least:.2g} m carries it; "
+        f"load: got {_loaded(film, force)}; no film above {least:.2g} m carries it; "
         f"{', '.join(remedies[:-1])}, or {remedies[-1]}"
     )
 
@@ -113,9 +123,31 @@ def _beyond_contact(film: FreeFilm, instant: Instant, force: Array, contact: Con
     """The reason why there is no equilibrium if the walls come nearly as close as their contact is known for."""
     if film.solved.room(instant.place) >= CLOSEST_CONTACT * (contact.touching - contact.closest):
         return None
-    size, pressed = (np.hypot(*one[:2]) for one in (force, film.solved.contact_at(instant.place).force))
+    pressed = film.solved.contact_at(instant.place).force
     return InputError(
-        f"load: got {size:.6g} N; at a separation of {contact.closest:.4g} m, the smallest whose contact pressure is "
-        f"known, the asperities carry {pressed:.4g} N and the film too little; lower the load, or make a table with "
-        "larger loads"
+        f"load: got {_loaded(film, force)}; at a separation of {contact.closest:.4g} m, the smallest whose contact "
+        f"pressure is known, the asperities carry {_loaded(film, pressed)} and the film too little; lower the load, or "
+        "make a table with larger loads"
     )
+
+
+def _pushes(film: FreeFilm, instant: Instant) -> float:
+    """The force by which the film of a pad at rest at its place pushes it off, N; infinite if none is found."""
+    solved, count = film.solved, instant.place.size
+    given = Drive(
+        speed=solved.problem.speed,
+        force=np.zeros(count),
+        stiffness=np.zeros((count, count)),
+        free=np.zeros(count, dtype=bool),
+    )
+    try:
+        return float(solved.force(settled(solved, instant, given, tolerance=ROUGHLY).state.pressure)[0])
+    except (ConvergenceError, FloatingPointError):
+        return math.inf
+
+
+def _loaded(film: FreeFilm, force: Array) -> str:
+    """The size of a force on the wall without its moments, on all pads that are alike, per width of a wide film."""
+    scene = film.scene
+    size = float(np.hypot(*force[:2])) if isinstance(scene.geometry, Shaft) else abs(float(force[0]))
+    return f"{size * (scene.pieces or 1):.6g} {'N/m' if scene.wide else 'N'}"

@@ -1,6 +1,5 @@
 """The Reynolds equation of an incompressible liquid without cavitation."""
 
-from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.model import bearing_model, incompressible_film
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Applicability, Effect
@@ -13,11 +12,13 @@ def applies(scene: Bearing) -> Applicability:
         return Applicability(
             applies=False, reason=f"the inlet is starved (theta = {theta:g}), which needs a model with cavitation"
         )
-    reason = (
-        f"leaves out cavitation: pressures of up to about {expected_scene(scene).pressure_unit:.3g} Pa, also below "
-        "ambient; valid only if the film nowhere widens"
+    load = scene.load_pressure
+    pressures = f"of {load:.3g} Pa in the mean" if load else f"of up to about {scene.pressure_unit:.3g} Pa"
+    return Applicability(
+        applies=True,
+        reason=f"leaves out cavitation: pressures {pressures}, also below ambient; valid only if the film nowhere "
+        "widens",
     )
-    return Applicability(applies=True, reason=reason)
 
 
 MODEL = bearing_model(

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.model import SOURCES, bearing_model, incompressible_film
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.model import Applicability, Effect
@@ -10,12 +9,10 @@ from roughfilm.rom.ladder.model import Applicability, Effect
 
 def applies(scene: Bearing) -> Applicability:
     """Always, with the changes of density and viscosity that are left out."""
-    scene = expected_scene(scene)
-    problem = scene.problem()
-    pressure = np.array([scene.pressure_unit / 10])
+    lubricant, pressure = scene.lubricant, np.array([scene.load_pressure or scene.pressure_unit / 10])
     with np.errstate(all="ignore"):
-        denser = problem.compression(pressure)[0][0]
-        thicker = 1 / problem.piezoviscosity.fluidity(pressure, problem.viscosity)[0][0] - 1
+        denser = lubricant.compressibility.compression(pressure)[0][0]
+        thicker = 1 / lubricant.piezoviscosity.fluidity(pressure, lubricant.viscosity)[0][0] - 1
     change = f"density by {100 * denser:.2g} % and viscosity by {100 * thicker:.2g} % at {pressure[0]:.2g} Pa"
     return Applicability(applies=True, reason=f"leaves out changes under pressure: {change}")
 

@@ -283,10 +283,14 @@ def _stopped(
         closing = -film.at_nodes[at] * moving.now.velocity
         reason = (
             f"the film is {least:.3g} m thick, and the walls touch, mainly by the motion of "
-            f"{names[int(np.argmax(closing))]}; lower the load, or raise the viscosity or the speed"
+            f"{names[int(np.argmax(closing))]}; "
         )
-        if film.turns is not None and film.turns.any() and least < TILTED * float(thickness.mean()):
-            reason += ", or move the pivot or change the moments, which tilt the pad"
+        tilted = film.turns is not None and film.turns.any() and least < TILTED * float(thickness.mean())
+        reason += (
+            "move the pivot or change the moments, which tilt the pad under any load"
+            if tilted
+            else "lower the load, or raise the viscosity or the speed"
+        )
     elif loose.size and (isinstance(cause, UnresistedError) or not _pressed(instant)):
         remedy = " and ".join(dict.fromkeys(remedies[number] for number in loose))
         reason = (

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from moving_films import CLEARANCE, RADIUS, SPEED, course, journal, steady
 
-from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.march.solve import march_bearing
 from roughfilm.rom.cavitation.motion import march as marches
 from roughfilm.rom.ladder.scene import read_scene
@@ -38,8 +38,24 @@ def test_a_film_that_keeps_its_pressure_follows_walls_that_part():
 
 def test_a_pad_whose_moments_no_tilt_balances_closes_and_its_pivot_is_named():
     start = {"start": {"film": "60 um"}}
-    with pytest.raises(ConvergenceError, match=r"the walls touch, mainly by the motion of .* or move the pivot"):
+    with pytest.raises(
+        ConvergenceError, match=r"the walls touch, mainly by the motion of .*; move the pivot .* any load"
+    ):
         marched(PAD | {"pivot": 0.35}, load={"force": "500 N"}, body=start)
+
+
+WEDGE = {"shape": "linear", "length": "20 mm", "width": "20 mm", "film": "20 um", "rise": "100 um"}
+
+
+@pytest.mark.parametrize(
+    ("speed", "load", "words"),
+    [("-1 m/s", "300 N", "no film carries a load at this speed"), ("1 m/s", "1 GN", "lower the load|does not settle")],
+    ids=["widening", "overloaded"],
+)
+def test_a_pad_under_a_load_that_no_film_carries_is_refused(speed, load, words):
+    over_time = {"time": ["0 s", "10 ms", "20 ms"], "load": [load] * 3}
+    with pytest.raises(InputError, match=rf"body.start.film: is missing, .* \(load: .*({words})"):
+        marched(WEDGE, speed=speed, over_time=over_time, cavitation="-0.1 MPa", body={"mass": "10 kg"})
 
 
 @pytest.mark.parametrize("cavitation", ["-0.1 MPa", "-1 MPa"])

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from roughfilm.contact.foundation.errors import ConvergenceError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.ladder import find
 from roughfilm.rom.cavitation.grid import grid
 from roughfilm.rom.cavitation.motion.coefficients import coefficients
@@ -186,3 +186,39 @@ def test_a_pad_that_approaches_displaces_what_is_not_supplied():
     entering = sum(result[name].value for name in ("inlet_flow", "supply_flow", "displaced_flow"))
     leaving = result["outlet_flow"].value + result["side_leakage"].value
     assert entering == pytest.approx(leaving, rel=1e-9)
+
+
+@pytest.mark.parametrize("model", ["reynolds_cavitating", "reynolds_incompressible"])
+def test_a_given_flow_that_a_law_of_viscosity_stops_is_refused_in_one_line(model):
+    """With Barus' law no pressure passes more than G/α through a land, π h³/(6 η α ln(R/r)) in all."""
+    geometry, supply = washer(flow="100 l/min")
+    del supply[0]["pressure"]
+    thick = {"viscosity": "1 Pa*s", "piezoviscosity": {"law": "barus", "pressure_coefficient": "2e-8 Pa^-1"}}
+    if model == "reynolds_incompressible":
+        assert solved(geometry | {"film": "20 um"}, supply, model=model, lubricant=thick, cells=16)
+        return
+    with pytest.raises(ConvergenceError, match=r"supply|pressure|piezoviscosity"):
+        solved(geometry | {"film": "20 um"}, supply, model=model, lubricant=thick, cells=16)
+
+
+def test_a_pocket_of_given_flow_under_a_load_that_fixed_pressures_exceed_says_so():
+    geometry = {"shape": "parallel", "length": "30.38 mm", "width": "217.3 mm", "film": "24 um"}
+    supply = [
+        {
+            "kind": "pocket",
+            "x": "7.42 mm",
+            "length": "3.25 mm",
+            "extent": "150.8 mm",
+            "depth": "0.617 mm",
+            "flow": "1.396e-5 m^3/s",
+        },
+        {"kind": "hole", "x": "20.66 mm", "diameter": "2.05 mm", "pressure": "831.3 kPa"},
+    ]
+    oil = {
+        "viscosity": "0.2845 Pa*s",
+        "cavitation_pressure": "-70 kPa",
+        "piezoviscosity": {"law": "barus", "pressure_coefficient": "3.911e-10 Pa^-1"},
+    }
+    tables = {"lubricant": oil, "motion": {"speed": "0.396 m/s"}, "load": {"force": "123 N"}}
+    with pytest.raises(InputError, match=r"load: got .* the film carries at least"):
+        solved(geometry, supply, model="reynolds_cavitating", cells=16, **tables)
