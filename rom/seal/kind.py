@@ -53,11 +53,14 @@ def numbers(scene: Seal) -> dict[str, float]:
 
 def outside(scene: Seal, _model: Any, result: Result | None) -> tuple[str, ...]:
     """The sentences on a leakage that is not laminar, and on a gas that is taken as a liquid."""
+    return leakage_outside(scene, 0.0 if result is None else result.quantities["leakage_per_width"].value)
+
+
+def leakage_outside(scene: Seal, leakage: float) -> tuple[str, ...]:
+    """The same of a leakage per width, kg/(m s), whose Re = ρq/η is the leakage over the viscosity."""
     liquid = scene.liquid
     gas = leakage_of_gas(liquid.density, liquid.viscosity, scene.flow.pressure_drop, ATMOSPHERE)
-    if result is None:
-        return gas
-    return (*pressure_turbulence(result.quantities["leakage_per_width"].value / liquid.viscosity), *gas)
+    return (*pressure_turbulence(leakage / liquid.viscosity), *gas)
 
 
 def remarks(entries: Mapping[str, Any], _quantities: Mapping[str, Quantity]) -> tuple[str, ...]:

@@ -64,7 +64,8 @@ def reference_of(sweep: Sweep, models: Sequence[Model]) -> Reference:
 
     Its uncertainty in a case is the larger one of that by the grids of the sweep, if there are two or more, and that
     stated by the run. Where both are unknown it is the expected error by the fitted laws. If the reference is not the
-    most complete model of the kind, it is at least this expected error, which contains the effects left out. Models of
+    most complete model of the kind, it is at least this expected error, which contains the effects left out. In cases
+    outside the range of the model it is unknown. Models of
     effects that only some lubricants have count if the sweep has a model of these effects.
 
     Parameters
@@ -112,7 +113,8 @@ def _uncertainty(
     own = sweep.uncertainty[setting][quantity] / size
     numerical = np.fmax(own, _by_grids(sweep, setting, grids, model, quantity, size) / size)
     expected = sweep.expected_error[setting][quantity]
-    return np.where(np.isnan(numerical), expected, numerical) if complete else np.fmax(numerical, expected)
+    found = np.where(np.isnan(numerical), expected, numerical) if complete else np.fmax(numerical, expected)
+    return np.where(list(map(bool, sweep.outside.get(setting, [False] * found.size))), np.nan, found)
 
 
 def _by_grids(sweep: Sweep, setting: str, grids: Sequence[str], model: Model, quantity: str, size: Array) -> Array:

@@ -42,6 +42,7 @@ class Sweep:
     failures : case, setting and reason of each missing result.
     sought : the quantity that every scene asks for by a table of its own, such as the film under a load; empty if the
         scenes do not.
+    outside : by setting, the ways in which each case is outside the range of the model; "" where it is inside.
     """
 
     kind: str
@@ -55,6 +56,7 @@ class Sweep:
     resolution: Mapping[str, Array] = field(default_factory=dict)
     residual: Mapping[str, Array] = field(default_factory=dict)
     sought: str = ""
+    outside: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def features(self) -> dict[str, Array]:
         """The numbers by name that order the errors, shape (cases,); empty where the cases do not have them."""
@@ -87,6 +89,10 @@ def restricted(sweep: Sweep, mask: NDArray[np.bool_]) -> Sweep:
         resolution=columns(sweep.resolution),
         residual=columns(sweep.residual),
         sought=sweep.sought,
+        outside={
+            setting: tuple(one for one, kept in zip(words, mask, strict=True) if kept)
+            for setting, words in sweep.outside.items()
+        },
     )
 
 
@@ -164,7 +170,19 @@ def read_sweep(table: Mapping[str, NDArray[Any]], kind: str) -> Sweep:
         resolution=resolution,
         residual=residual,
         sought=sought,
+        outside=_outside(table, index, rows, len(names)),
     )
+
+
+def _outside(
+    table: Mapping[str, NDArray[Any]], index: NDArray[np.intp], rows: Mapping[str, NDArray[np.bool_]], count: int
+) -> dict[str, tuple[str, ...]]:
+    """By setting, the ways in which each case is outside the range of the model, of tables that have them."""
+    found = {}
+    for setting, own in rows.items() if "outside" in table else ():
+        words = dict(zip(index[own].tolist(), map(str, table["outside"][own]), strict=True))
+        found[setting] = tuple(words.get(place, "") for place in range(count))
+    return found
 
 
 def _sought(table: Mapping[str, NDArray[Any]]) -> str:

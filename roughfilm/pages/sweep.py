@@ -56,6 +56,7 @@ from roughfilm.words.sweep import (
     largest_error_text,
     missing_sentences,
     optimum_sentence,
+    outside_sentences,
     place_of,
     title_of,
     uncertainty_words,
@@ -238,8 +239,11 @@ def shown_answers(study: Study, want: str | None) -> list[Shown]:
 
 
 def headline(study: Study, shown: Shown) -> str:
-    """The sentence with the best case."""
-    return best_sentence(shown.answer, shown.title, shown.scale, study.parameters)
+    """The sentence with the best case, and whether it is outside the range of the model."""
+    sentence = best_sentence(shown.answer, shown.title, shown.scale, study.parameters)
+    outside = study.sweep.outside.get(shown.answer.setting, ())
+    beyond = bool(outside) and bool(shown.answer.order) and bool(outside[shown.answer.best])
+    return f"{sentence} (outside the range of the model, error unknown)" if beyond else sentence
 
 
 def write_sweep(study: Study, want: str | None, path: Path, *, overwrite: bool = False) -> tuple[dict[str, Any], str]:
@@ -256,6 +260,7 @@ def write_sweep(study: Study, want: str | None, path: Path, *, overwrite: bool =
     rest = [one for one in shown if one.answer.quantity not in asked and _varies(one)][:MAX_PANELS]
     solved = {name: np.isfinite(study.sweep.cpu_s[name]) for name in study.sweep.found}
     missing = missing_sentences(solved, study.sweep.failures, len(study.batch.missing))
+    outside = outside_sentences(study.sweep.outside)
     failures = [one for one in study.sweep.failures if not one[2].startswith(("left out", TO_COME))]
     edited = edited_sentences(study.edited)
     unranked = unranked_sentence(shown[0].answer, _reason(study, shown[0].answer))
@@ -275,6 +280,7 @@ def write_sweep(study: Study, want: str | None, path: Path, *, overwrite: bool =
         others=[headline(study, one) for one in main[1:]],
         missing=[*missing, *filter(None, [unranked])],
         edited=edited,
+        outside=outside,
         failures=failures,
         listed_failures=LISTED_FAILURES,
         answers=[(one, *_figures(study, one)) for one in main],
@@ -308,6 +314,7 @@ def write_sweep(study: Study, want: str | None, path: Path, *, overwrite: bool =
         "ranking": [_rank_entries(one) for one, _ in ordered["ranks"]],
         "failures": list(study.sweep.failures),
         "missing": missing,
+        "outside": outside,
         "unranked": unranked,
         "edited": edited,
         "answers": [_answer_entries(study, one) for one in main],

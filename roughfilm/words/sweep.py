@@ -126,6 +126,25 @@ def uncertainty_words(answer: Answer) -> str:
     return f"± is {', and '.join(parts)}"
 
 
+def outside_sentences(outside: Mapping[str, Sequence[str]]) -> list[str]:
+    """A sentence for each setting with cases outside the range of its model, with the reasons of the first of them.
+
+    ``outside`` holds the reasons of each case, by setting; "" where a case is inside.
+    """
+    found = []
+    for setting, reasons in outside.items():
+        beyond = [place for place, reason in enumerate(reasons) if reason]
+        if beyond:
+            named = ", ".join(str(place + 1) for place in beyond[:CASES_NAMED])
+            named += ", ..." if len(beyond) > CASES_NAMED else ""
+            are = "is" if len(beyond) == 1 else "are"
+            found.append(
+                f"{_cases(len(beyond))} ({named}) by {setting} {are} outside the range of the model, error unknown: "
+                f"{reasons[beyond[0]]}"
+            )
+    return found
+
+
 def missing_sentences(solved: Mapping[str, Array], failures: Sequence[tuple[str, str, str]], to_come: int) -> list[str]:
     """A sentence for each setting that lacks cases, with the reason, and one for the jobs of an unfinished batch.
 

@@ -224,6 +224,11 @@ def write_ross(path: Path, scene: Bearing, curve: DynamicCurve) -> None:
             sign = 1.0 if entry in ("_xx", "_yy") else mirrored
             entries[f"{letter}{entry[1:]}"] = [sign * point.numbers[f"{matrix}{entry}"] for point in points]
     lines = [f"{key} = {json.dumps(value)}" for key, value in entries.items()]
+    lines += [
+        f"# at {point.rotation:.4g} rad/s outside the range of the model: {'; '.join(point.outside)}"
+        for point in points
+        if point.outside
+    ]
     text = ROSS_MARK.decode() + "[BearingElement_bearing]\n" + "\n".join(lines) + "\n"
     with replacing(path, beginning_with("a bearing element for ROSS", ROSS_MARK)) as scratch:
         scratch.write_text(text, encoding="utf-8")

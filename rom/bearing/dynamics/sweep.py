@@ -162,7 +162,7 @@ def dynamics(
 
 def at_operation(scene: Bearing, speed: float, pressure: float) -> Bearing:
     """The bearing at a sliding speed, m/s, in the direction of its own, and under a load over its nominal area, Pa."""
-    load = scene.load or BearingLoad(pressure=pressure)
+    load = scene.load or BearingLoad.model_construct(pressure=pressure)
     only = {"pressure": pressure, "force": None, "force_per_width": None}
     return scene.at_speed(math.copysign(speed, scene.motion.speed or 1.0)).model_copy(
         update={"load": load.model_copy(update=only)}

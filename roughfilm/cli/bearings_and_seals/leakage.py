@@ -16,6 +16,7 @@ from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, is_joined_at_pixel_0, joint_mismatch
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
 from roughfilm.rom.seal.at_load import SealAtLoad, seal_at_load
+from roughfilm.rom.seal.kind import leakage_outside
 from roughfilm.rom.seal.leakage.curve import SealSetup, chosen_loads, columns_of, seal_setup, sealing, solved
 from roughfilm.rom.seal.leakage.joint import EDGE_REMEDY, joint_seals
 from roughfilm.rom.seal.leakage.percolation import Threshold
@@ -39,6 +40,7 @@ from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.terminal.scenes import refuse_jobs, requested_loads, seal_of
 from roughfilm.words.leakage import WORDS, answer_in_words, in_words, leakage_scale, leaks, scatter_in_words
 from roughfilm.words.numbers import digits, finite
+from roughfilm.words.outside import outside_in_words, outside_of_series
 
 EXAMPLES = (
     "roughfilm leakage scripts/examples/scenes/seal.toml --out seal",
@@ -114,7 +116,9 @@ def command(
             yield scatter_in_words(body.spread)
 
     name = f"direct_{seal.flow.direction}"
-    words = f"{answer_in_words(seal, answer)}; {WORDS[name]}: {in_words(thresholds[name])}"
+    beyond = outside_in_words(leakage_outside(seal, answer.leakage_per_width.value))
+    sealing_words = f"{WORDS[name]}: {in_words(thresholds[name])}"
+    words = "; ".join(filter(None, [beyond, answer_in_words(seal, answer), sealing_words]))
     summary = written(words, page, out / "table.csv")
     show_result(entries, shown(), as_json=as_json, reused="loads", summary=summary)
 
@@ -148,9 +152,25 @@ def _entries(
             for name, both in thresholds.items()
         },
         "numerics": {"points": body.surface.heights.size, "loads": len(rows)},
-        "provenance": origin(SOURCES, _warnings(seal, body, rows, thresholds), scene=scene_entries(seal)),
+        "outside": list(leakage_outside(seal, answer.leakage_per_width.value)),
+        "provenance": origin(
+            SOURCES,
+            [*_outside_warnings(seal, columns), *_warnings(seal, body, rows, thresholds)],
+            scene=scene_entries(seal),
+        ),
     }
     return entries, columns
+
+
+def _outside_warnings(seal: Seal, columns: Mapping[str, Column]) -> list[str]:
+    """The warning on loads whose leakage is not laminar, or of a gas that is taken as a liquid."""
+    leaks = np.array([column.values for column in columns.values() if column.unit == "kg/(m*s)"], dtype=float)
+    points = [
+        (f"{load / 1e6:.4g} MPa", leakage_outside(seal, float(np.nanmax(own))))
+        for load, own in zip(np.array(columns["load"].values, dtype=float), leaks.T, strict=True)
+    ]
+    beyond = outside_of_series(points)
+    return [beyond] if beyond else []
 
 
 def _warnings(seal: Seal, body: SealSetup, rows: Mapping[float, Row], thresholds: Mapping[str, Threshold]) -> list[str]:

@@ -12,6 +12,7 @@ from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.rom.ladder.scene import scene_entries
+from roughfilm.rom.seal.kind import leakage_outside
 from roughfilm.rom.seal.leakage.series import SOUGHT
 from roughfilm.rom.seal.leakage.windows import SealOfWindows, columns_of_windows
 from roughfilm.rom.seal.model import leakage_of
@@ -26,6 +27,7 @@ from roughfilm.terminal.scenes import requested_loads, seal_of
 from roughfilm.words.average import HEADS, cells_of, count_in_words, in_words
 from roughfilm.words.leakage import WORDS, sealing_in_words
 from roughfilm.words.numbers import digits, finite_entries, share
+from roughfilm.words.outside import outside_in_words
 from roughfilm.words.scales import Scale, scale_for
 
 SOURCES = ("Sahlin 2008, Paper F", "10.1016/S0043-1648(99)00113-1", "10.1016/j.triboint.2006.02.069")
@@ -101,7 +103,8 @@ def leakage_of_set(
     scale = scale_for("kg/(m*s)", leak.value)
     words = f"along {seal.flow.direction} at {digits(answer.load * 1e-6)} MPa: {in_words(leak, scale)}"
     sealed = f"; {share(leak.zeros)} of the windows are sealed" if leak.zeros else ""
-    summary = written(f"{words}{sealed}", page, out / "table.csv")
+    beyond = outside_in_words(leakage_outside(seal, leak.value))
+    summary = written("; ".join(filter(None, [beyond, f"{words}{sealed}"])), page, out / "table.csv")
     show_result(entries, shown(), as_json=as_json, reused="rows", summary=summary)
 
 
@@ -134,6 +137,7 @@ def _entries(seal: Seal, answer: SealOfWindows, columns: dict[str, Column], cell
             "loads": len(answer.loads),
             "rows": len(answer.loads) * answer.count,
         },
+        "outside": list(leakage_outside(seal, leak.value)),
         "provenance": origin(SOURCES, [*cells.warnings, *_warnings(seal, answer)], scene=scene_entries(seal)),
     }
     finite: dict[str, Any] = finite_entries(entries)
@@ -142,7 +146,8 @@ def _entries(seal: Seal, answer: SealOfWindows, columns: dict[str, Column], cell
 
 def _warnings(seal: Seal, answer: SealOfWindows) -> list[str]:
     """Warnings of windows that never seal, and of lifted surfaces."""
-    warnings = []
+    beyond = outside_in_words(leakage_outside(seal, answer.answer["leakage_per_width"].value))
+    warnings = [beyond] if beyond else []
     for name, sealing in answer.sealing.items():
         if sealing.sealing < 1:
             limit = "the hardness" if math.isfinite(seal.hardness) else "E*, the limit of a linear solid"

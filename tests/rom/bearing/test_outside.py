@@ -12,6 +12,7 @@ from roughfilm.interface.motion import march
 from roughfilm.ladder import models
 from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.advice.expected import with_errors
+from roughfilm.rom.bearing.dynamics.store import write_ross
 from roughfilm.rom.bearing.dynamics.sweep import dynamics
 from roughfilm.rom.bearing.effects.analysis import analyse_effects
 from roughfilm.rom.bearing.mixed.stribeck import stribeck
@@ -231,3 +232,21 @@ def test_a_gas_with_its_law_is_that_of_the_equation_of_ideal_gases():
 def test_pressures_that_hardly_differ_from_ambient_do_not_compress_a_gas():
     slow = scene(SLIDER, GAS, speed="0.01 m/s")
     assert models("bearing")[0].solve(slow, Request(resolution=64)).outside == ()
+
+
+def test_the_table_for_ross_says_where_it_is_outside_the_range(tmp_path):
+    bearing = scene(LOBES, THICK, load={"force": "500 N"})
+    curves = dynamics(bearing, [5.0, 200.0], [bearing.load_pressure], resolution=32)
+    write_ross(tmp_path / "ross.toml", bearing, curves[0])
+    said = [line for line in (tmp_path / "ross.toml").read_text().splitlines() if "outside the range" in line]
+    assert len(said) == 1
+    assert said[0].startswith("# at 4000 rad/s ")
+
+
+def test_stiffness_of_a_bearing_without_a_load_is_that_under_the_given_one():
+    with_load = scene(LOBES, THICK, load={"force": "500 N"})
+    without = scene({**LOBES, "eccentricity": [0.0, 0.0]}, THICK)
+    one, other = (
+        dynamics(bearing, [5.0], [500 / (0.1 * 0.06)], resolution=32)[0].points[0] for bearing in (with_load, without)
+    )
+    assert one.numbers == other.numbers
