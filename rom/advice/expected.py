@@ -3,7 +3,9 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import chain
 
+from roughfilm.contact.foundation.timing import claimed_costs, one_time
 from roughfilm.rom.advice.estimates import AdviceTask, a_priori
 from roughfilm.rom.advice.laws import lawful, table
 from roughfilm.rom.advice.stated import BY_LAWS, ENTRY, StatedError, entries_of_errors, stated_errors
@@ -28,7 +30,7 @@ def with_errors(
 
     An error is that of ``known`` where it has one, such as a measured one, otherwise that of the fitted laws. Outside
     the range of its model a result has no errors: they are unknown. Every command, page and file takes the errors from
-    the result, so that they agree.
+    the result, so that they agree. The CPU time of the errors is one of the one-time costs of the result.
 
     Parameters
     ----------
@@ -39,14 +41,18 @@ def with_errors(
     known : by quantity, the errors that other runs or the advice give.
     """
     kind = kind_of_scene(scene)
-    expected = expected_errors(scene, model, result, models)
+    with one_time("errors"):
+        expected = expected_errors(scene, model, result, models)
     errors = {name: error for name, error in expected.items() if name in result.quantities}
     stated = {} if result.outside else known or {}
     errors |= {name: error for name, error in stated.items() if math.isfinite(error.error)}
     errors = _with_ratios(kind, result, errors)
     before = error_warnings(kind, model.name, stated_errors(result))
+    spent = [result.numerics.one_time, claimed_costs()]
+    costs = {name: sum(one.get(name, 0.0) for one in spent) for name in dict.fromkeys(chain(*spent))}
     return replace(
         result,
+        numerics=replace(result.numerics, one_time=costs),
         expected_error={name: one.error for name, one in errors.items()},
         provenance={**result.provenance, ENTRY: entries_of_errors(errors)},
         warnings=(

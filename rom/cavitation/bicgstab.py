@@ -60,7 +60,7 @@ def bicgstab(product: Operator, inverse: Operator, right_hand_side: Array, *, to
     raise ConvergenceError(
         f"linear solver: its residual went from {start:.1e} to {size:.1e} instead of {tolerance:.1e} in {limit} "
         "iterations; take other cells",
-        outcome=Outcome.STALLED,
+        outcome=Outcome.STALLED if math.isfinite(size) else Outcome.DIVERGED,
         iterations=limit,
     )
 

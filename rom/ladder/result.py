@@ -85,7 +85,8 @@ class Numerics:
     runs : the runs of the solver in their order; empty if the model does not report them.
     details : further numbers that describe the computation, by name.
     one_time : CPU time of work that later runs do not repeat, s, by name: "table" of the surface, "compilation",
-        "surface" (read or made), and "start" (imports, compiled loops and source code that are read).
+        "surface" (read or made), "start" (imports, compiled loops and source code that are read), and "errors" (films
+        that show the expected errors).
     """
 
     residual: float

@@ -12,6 +12,7 @@ NAMES = {
     "compilation": "compilation, once per installation",
     "surface": "to read or make the surface",
     "start": "to load the program",
+    "errors": "for the error of the model",
 }
 """The words for each one-time cost."""
 

@@ -12,6 +12,7 @@ from roughfilm.rom.bearing.effects.absent import absent_effects
 from roughfilm.rom.bearing.keyed import KeyedScene, keyed
 from roughfilm.rom.bearing.roughness import RoughSurface
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.newton import few_rounds
 from roughfilm.rom.ladder.kind import Omission, kind_of, kind_of_scene
 from roughfilm.rom.ladder.model import Effect, Model, ladder
 from roughfilm.rom.ladder.request import Request
@@ -186,7 +187,8 @@ def _solved(scene: Bearing, models: Sequence[Model[Bearing]], cells: int) -> tup
     failures: dict[str, str] = {}
     for model in models:
         try:
-            results[model.name] = model.solve(scene, Request(resolution=cells))
+            with few_rounds():
+                results[model.name] = model.solve(scene, Request(resolution=cells))
         except (InputError, ConvergenceError) as error:
             failures[model.name] = str(error)
     return results, failures

@@ -330,6 +330,13 @@ def robustly_balanced(
             break
         place = max(place / SCAN_RATIO, at.film.closest)
     if failure is not None:
+        found = {separation: one + at.film.contact_load(separation) for separation, one in at.loads.items()}
+        if isinstance(failure, InputError) and min(found.values()) < load < found[max(found)]:
+            raise InputError(
+                f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s it is carried only where "
+                "the load of the film grows with its thickness, so that no equilibrium is stable; raise the load, or "
+                "lower the pressures at the ends and of supplies"
+            ) from None
         raise failure
     assert film is not None
     return film
@@ -369,5 +376,6 @@ def _load_jumps(at: FilmsAtSpeed[FilmT], pressure: float, separation: float, err
 def _load_too_low(at: FilmsAtSpeed[FilmT], pressure: float, load: float) -> InputError:
     return InputError(
         f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s the film carries at "
-        f"least {load / at.film.area:.6g} Pa at any separation; raise the load or lower the pressures at the ends"
+        f"least {load / at.film.area:.6g} Pa at any separation; raise the load, or lower the "
+        "pressures at the ends and of supplies"
     )

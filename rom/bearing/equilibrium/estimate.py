@@ -1,6 +1,7 @@
 """The estimate of the film that a bearing has under its load: the film of a simple model on a coarse grid."""
 
 import math
+from contextlib import nullcontext
 from typing import Any
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
@@ -10,12 +11,16 @@ from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.film import averaged_film
 from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.cavitation.newton import few_rounds
 
 CONTACT_FILM = 2.0
 """Expected film thickness over the rms height where asperities carry the load."""
 
 CELLS = {True: (64, 256), False: (24, 96)}
 """Numbers of cells along a side, for an infinitely wide film (True) and for others; the second if the first fails."""
+
+CLEARLY = 1.5
+"""Load over the largest that films on the first grid carry, or the smallest over it, above which it is refused."""
 
 LOAD_TOLERANCE = 1e-4
 """Relative error of the load at which the search stops."""
@@ -53,11 +58,17 @@ def estimate(scene: Bearing) -> tuple[float, float]:
         )
         at = FilmsAtSpeed(film=films, speed=scene.motion.speed)
         try:
-            film = robustly_balanced(at, pressure, tolerance=LOAD_TOLERANCE).scene.geometry.thinnest
+            with nullcontext() if failure is None else few_rounds():
+                film = robustly_balanced(at, pressure, tolerance=LOAD_TOLERANCE).scene.geometry.thinnest
         except (InputError, ConvergenceError) as error:
             if touching > 0:
                 return touching, at.steepness
             failure = error
+            carried = at.loads.values()
+            if isinstance(error, InputError) and (
+                pressure * films.area > CLEARLY * max(carried) or pressure * films.area < min(carried) / CLEARLY
+            ):
+                break
         else:
             return max(film, touching), steepness_of(at, film)
     assert failure is not None

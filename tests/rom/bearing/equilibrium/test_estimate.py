@@ -1,0 +1,53 @@
+"""The first estimate of a film under a load: a load far from all that is carried is refused on the first grid."""
+
+import pytest
+
+from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.equilibrium import estimate
+from roughfilm.rom.bearing.equilibrium.expected import expected_film
+from roughfilm.rom.ladder.scene import read_scene
+
+WEDGE = {"shape": "linear", "length": "20 mm", "width": "20 mm", "rise": "10 um"}
+FED = {"shape": "parallel", "length": "20 mm", "width": "20 mm"}
+HIGH = {"inlet": {"pressure": "2 MPa"}, "outlet": {"pressure": "2 MPa"}}
+
+
+def pad(geometry, load, speed="1 m/s", **tables):
+    entries = {"name": "pad", "kind": "bearing", "geometry": geometry, "lubricant": {"viscosity": "20 mPa*s"}}
+    return read_scene(entries | {"motion": {"speed": speed}, "load": {"pressure": load}} | tables)
+
+
+@pytest.fixture
+def grids(monkeypatch):
+    """The grids on which films are sought."""
+    made, own = [], estimate.ModelFilms
+
+    def films(**options):
+        made.append(options["cells"])
+        return own(**options)
+
+    monkeypatch.setattr(estimate, "ModelFilms", films)
+    return made
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        pad(WEDGE, "1 TPa"),
+        pad(WEDGE, "0.1 MPa", speed="-1 m/s"),
+        pad(FED, "1 kPa", boundary=HIGH | {"sides": {"low": "2 MPa", "high": "2 MPa"}}),
+    ],
+    ids=["too large", "widening", "too small"],
+)
+def test_a_load_that_is_clearly_not_carried_is_refused_once_and_on_one_grid(grids, scene):
+    for _ in range(2):
+        with pytest.raises(InputError, match="load: got"):
+            expected_film(scene)
+    assert grids == [estimate.CELLS[False][0]]
+
+
+def test_a_load_near_the_largest_is_sought_on_the_finer_grid_too(grids):
+    """A parallel film between pressures carries at most these, whatever the grid; 1 % more is refused on both."""
+    with pytest.raises(InputError, match="load: got"):
+        expected_film(pad(FED, "2.02 MPa", boundary=HIGH | {"sides": {"low": "2 MPa", "high": "2 MPa"}}))
+    assert grids == list(estimate.CELLS[False])
