@@ -48,6 +48,25 @@ def finite_arithmetic(place: str) -> Iterator[None]:
         raise ConvergenceError(f"{place}: its numbers overflow ({error}); {OVERFLOW_REMEDY}") from error
 
 
+def real_array(place: str, values: object, what: str) -> Array:
+    """A new array of real numbers; InputError, with ``what`` was expected, for anything else.
+
+    Examples
+    --------
+    >>> real_array("spacing", 1j, "two lengths")
+    Traceback (most recent call last):
+    ...
+    roughfilm.contact.foundation.errors.InputError: spacing: got complex128; give two lengths
+    """
+    try:
+        array = np.asarray(values)
+    except ValueError:
+        raise InputError(f"{place}: got rows of different lengths; give {what}") from None
+    if array.dtype.kind not in "biuf":
+        raise InputError(f"{place}: got {array.dtype if array.dtype != object else type(values).__name__}; give {what}")
+    return np.array(array, dtype=np.float64, order="C")
+
+
 def unmasked(place: str, values: ArrayLike) -> NDArray[Any]:
     """The values as an array, whose type and numbers are not checked.
 

@@ -6,7 +6,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from roughfilm.contact.foundation.arrays import Array, Mask
+from roughfilm.contact.foundation.arrays import Array, Mask, real_array
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.ranges import RANGES
@@ -56,7 +56,7 @@ class Surface:
     __repr__ = brief
 
     def __post_init__(self) -> None:
-        heights = np.array(self.heights, dtype=np.float64, order="C")
+        heights = real_array("surface", self.heights, "heights in m")
         if heights.ndim != 2 or min(heights.shape) < 2:
             raise InputError(f"surface: got heights of shape {heights.shape}; at least 2 x 2 pixels are needed")
         invalid = np.array(self.invalid, dtype=bool)
@@ -73,8 +73,9 @@ class Surface:
         highest = float(np.abs(heights).max())
         if highest > MAX_LENGTH or highest not in RANGES["m"]:
             raise InputError(f"surface: got a height of {highest:.3g} m; look at the unit")
-        spacing = tuple(float(length) for length in self.spacing)
-        if len(spacing) != 2 or not all(MIN_SPACING <= length < MAX_LENGTH for length in spacing):
+        steps = real_array("surface", self.spacing, "two lengths in m as spacing")
+        spacing = tuple(steps.ravel().tolist())
+        if steps.shape != (2,) or not all(MIN_SPACING <= length < MAX_LENGTH for length in spacing):
             raise InputError(f"surface: got spacing {self.spacing!r}; give two lengths in m, 1e-15 or more")
         heights.flags.writeable = invalid.flags.writeable = False
         object.__setattr__(self, "heights", heights)

@@ -10,7 +10,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -91,6 +91,7 @@ def execute(directory: Path, command: Sequence[str], log_name: str, watch: Watch
                     stdin=subprocess.DEVNULL,
                     stdout=output,
                     stderr=output,
+                    process_group=0,  # so that its children end with it
                 )
             checked = time.monotonic()
             while True:
@@ -107,6 +108,9 @@ def execute(directory: Path, command: Sequence[str], log_name: str, watch: Watch
             if process is not None:
                 _stop(process)
             raise
+        finally:
+            if process is not None:
+                _signal(process, signal.SIGKILL)  # the children that it left
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode in FILE_TOO_LARGE:
         raise unwritable(directory, OSError(errno.EFBIG, os.strerror(errno.EFBIG)))
@@ -189,9 +193,16 @@ def failure(
 
 
 def _stop(process: "subprocess.Popen[bytes]") -> None:
-    process.terminate()
+    """Terminate a program with its children, and kill them if they still run after ``STOP_TIME_S``."""
+    _signal(process, signal.SIGTERM)
     try:
         process.wait(STOP_TIME_S)
     except subprocess.TimeoutExpired:
-        process.kill()
+        _signal(process, signal.SIGKILL)
         process.wait()
+
+
+def _signal(process: "subprocess.Popen[bytes]", number: int) -> None:
+    """Send a signal to all that is left of the process group of a program."""
+    with suppress(ProcessLookupError, PermissionError):
+        os.killpg(process.pid, number)

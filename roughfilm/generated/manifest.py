@@ -11,7 +11,7 @@ from typing import Any
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.contact.foundation.reading.json_entries import from_json
-from roughfilm.contact.foundation.reading.regular import opened, read_bytes
+from roughfilm.contact.foundation.reading.regular import named_path, opened, read_bytes
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.ladder.setting import Setting
@@ -150,8 +150,9 @@ def read_manifest(out: Path) -> Manifest:
         raise InputError(f"{path}: is damaged (it lacks cases, settings, or keys of cases); generate the cases again")
     places = [one.directory for one in manifest.generated]
     for name in (*manifest.cases, *manifest.settings, *places, *manifest.inputs.values()):
-        if Path(name).is_absolute() or ".." in Path(name).parts or "\0" in name:
+        if Path(name).is_absolute() or ".." in Path(name).parts:
             raise InputError(f"{path}: names a place outside of its directory, {name!r:.80}; generate the cases again")
+        named_path(str(path), name)
     if manifest.digest != manifest.expected_digest:
         edited = [name for name, one in manifest.cases.items() if one.digest != digest_of_entries(one.scene)]
         what = "the scene" + (f" of the case {edited[0]}" if edited[0] else "") if edited else "an entry"

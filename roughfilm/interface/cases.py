@@ -13,6 +13,7 @@ from roughfilm.batch.execute import refuse_lost
 from roughfilm.batch.executors import MOST_PROCESSES, workers
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.ranges import whole_in_range
+from roughfilm.contact.foundation.reading.regular import named_path
 from roughfilm.foamcases.openfoam.dialect import dialect_named
 from roughfilm.foamcases.openfoam.installation import dialect_here
 from roughfilm.foamcases.openfoam.model import CaseModel
@@ -137,8 +138,9 @@ def write_case(
         remedy = f"it must be {' or '.join(known)}" if known else f"no model of a {scene.kind} has any"
         raise InputError(f"model: got {model!r}, which writes no OpenFOAM case; {remedy}")
     request = Request(resolution=resolution, tolerance=tolerance, scheme=scheme, processes=processes)
-    by.write(scene, Path(directory), request, dialect=dialect_named(dialect) if dialect is not None else None)
-    return OpenFOAMCase(scene, by, Path(directory))
+    place = named_path("directory", directory)
+    by.write(scene, place, request, dialect=dialect_named(dialect) if dialect is not None else None)
+    return OpenFOAMCase(scene, by, place)
 
 
 def write_study(
@@ -178,7 +180,7 @@ def write_study(
     ...     print(error)
     study.models: none of them runs OpenFOAM; name stokes or navier_stokes, or solve it with 'batch'
     """
-    file, place = Path(path), Path(out)
+    file, place = named_path("path", path), named_path("out", out)
     study = study_to_generate(file)
     if study is None:
         raise InputError(f"{file}: is the scene of one case, not a study; write it with write_case")
@@ -223,7 +225,7 @@ def collect_study(
     docs: holds no manifest.json; name a directory that 'roughfilm generate' wrote
     """
     processes = whole_in_range("processes", processes, 1, MOST_PROCESSES)
-    place = Path(out)
+    place = named_path("out", out)
     read_manifest(place)
     with alone(place) as scratch:
         found = collect(place, workers(processes, scratch), progress)

@@ -1,10 +1,10 @@
 """Bearings in time."""
 
 import os
-from pathlib import Path
 
 from roughfilm.contact.foundation.arrays import finite_arithmetic
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.reading.regular import named_path
 from roughfilm.rom.bearing.march.solve import CELLS, ERROR, March, march_bearing
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.ladder.kind import Scene
@@ -79,6 +79,6 @@ def march(
             cells=cells,
             fields=fields,
             uncertain=uncertainty,
-            path=None if file is None else Path(file),
+            path=None if file is None else named_path("file", file),
             progress=progress,
         )

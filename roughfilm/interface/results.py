@@ -1,9 +1,9 @@
 """Writing and reading of result files."""
 
 import os
-from pathlib import Path
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.reading.regular import named_path
 from roughfilm.rom.ladder import store
 from roughfilm.rom.ladder.result import Result
 
@@ -35,7 +35,7 @@ def save(result: Result, path: str | os.PathLike[str], *, overwrite: bool = Fals
     """
     if not isinstance(result, Result):
         raise InputError(f"result: got {type(result).__name__}; give a Result, such as solve() returns")
-    store.save(result, Path(path), overwrite=overwrite)
+    store.save(result, named_path("path", path), overwrite=overwrite)
 
 
 def load_result(path: str | os.PathLike[str]) -> Result:
@@ -64,4 +64,4 @@ def load_result(path: str | os.PathLike[str]) -> Result:
     ...     print(error)
     README.md: is not a result of roughfilm; name an .h5 file that it wrote
     """
-    return store.load(Path(path))
+    return store.load(named_path("path", path))

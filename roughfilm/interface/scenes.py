@@ -80,7 +80,11 @@ def read_scene(entries: Mapping[str, Any]) -> Scene:
     """
     if not isinstance(entries, Mapping):
         raise InputError(f"scene: got {type(entries).__name__}; give a dict of tables, or a file name to load_scene")
-    return scenes.read_scene(in_si(entries))
+    try:
+        marked = in_si(entries)
+    except RecursionError:
+        raise InputError("scene: its tables are nested too deeply or hold themselves; give three levels") from None
+    return scenes.read_scene(marked)
 
 
 def replace(scene: Scene, key: str | Mapping[str, object], value: object = ...) -> Scene:

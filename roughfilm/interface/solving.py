@@ -42,8 +42,8 @@ def models(kind: str | None = None) -> tuple[Model, ...]:
     >>> [model.name for model in rf.models("pocket")]
     ['reynolds', 'reynolds_cavitating', 'inertial_reynolds', 'film', 'stokes', 'film_slope', 'navier_stokes']
     """
-    if kind is not None and kind not in kind_names():
-        raise InputError(f"kind: got {kind!r}; it must be one of {', '.join(kind_names())}")
+    if kind is not None and (not isinstance(kind, str) or kind not in kind_names()):
+        raise InputError(f"kind: got {repr(kind)[:60]}; it must be one of {', '.join(kind_names())}")
     return ladder.models(kind)
 
 

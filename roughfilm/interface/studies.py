@@ -1,7 +1,6 @@
 """Studies: scenes with lists of values, whose cases are solved in parallel and stored in a directory."""
 
 import os
-from pathlib import Path
 from typing import Any
 
 from numpy.typing import NDArray
@@ -14,6 +13,7 @@ from roughfilm.batch.progress import BatchProgress
 from roughfilm.batch.solve import solved_table
 from roughfilm.contact.foundation.errors import unwritable
 from roughfilm.contact.foundation.ranges import whole_in_range
+from roughfilm.contact.foundation.reading.regular import named_path
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.studies import study, table
 
@@ -45,7 +45,7 @@ def load_study(path: str | os.PathLike[str]) -> study.Study:
     >>> len(study.cases), [setting.name for setting in study.settings]
     (12, ['reynolds', 'inertial_reynolds'])
     """
-    return study.load_study(Path(path), ladder.models())
+    return study.load_study(named_path("path", path), ladder.models())
 
 
 def run_study(
@@ -88,7 +88,7 @@ def run_study(
     """
     processes = len(os.sched_getaffinity(0)) if processes is None else processes
     processes = whole_in_range("processes", processes, 1, MOST_PROCESSES)
-    loaded, place = load_study(path), Path(out)
+    loaded, place = load_study(path), named_path("out", out)
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -127,4 +127,4 @@ def read_table(path: str | os.PathLike[str]) -> dict[str, NDArray[Any]]:
     ...     print(error)
     README.md: is not a table of roughfilm; name a table.h5 that 'roughfilm batch' wrote
     """
-    return table.read_table(Path(path))
+    return table.read_table(named_path("path", path))

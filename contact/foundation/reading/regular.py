@@ -19,6 +19,31 @@ KINDS = {
 """Words for what is not a regular file, by the file type of its status."""
 
 
+MAX_NAME_BYTES = 255
+"""Largest length of a part of a path, bytes: that of all usual file systems."""
+
+
+def named_path(place: str, name: object) -> Path:
+    """The path of a name from a program; InputError for what is no name of a file, or too long for one.
+
+    Examples
+    --------
+    >>> named_path("out", "results")
+    PosixPath('results')
+    >>> named_path("out", 7)
+    Traceback (most recent call last):
+    ...
+    roughfilm.contact.foundation.errors.InputError: out: got 7 (int); give the name of a file or a directory
+    """
+    if not isinstance(name, str | os.PathLike) or not isinstance(found := os.fspath(name), str):
+        raise InputError(
+            f"{place}: got {repr(name)[:60]} ({type(name).__name__}); give the name of a file or a directory"
+        )
+    if "\0" in found or any(len(os.fsencode(part)) > MAX_NAME_BYTES for part in found.split(os.sep)):
+        raise InputError(f"{place}: got {found!r:.60}; a name has no zero byte and up to {MAX_NAME_BYTES} bytes")
+    return Path(found)
+
+
 def file_size(path: Path, remedy: str) -> int:
     """The size of a regular file, bytes.
 

@@ -184,6 +184,8 @@ def march_bearing(
     ConvergenceError
         If a film becomes too thin, or a step does not converge.
     """
+    if not isinstance(cells, tuple | list | np.ndarray) or len(cells) != 2:
+        raise InputError(f"cells: got {repr(cells)[:60]}; give two whole numbers, along and across")
     for name, count in zip(("cells along", "cells across"), cells, strict=True):
         whole_in_range(name, count, MIN_CELLS, MAX_CELLS)
     duty = Duty(scene=with_coordinates(scene, cells))

@@ -1,6 +1,7 @@
 """roughfilm generate: the OpenFOAM cases of a scene or of a study, to run by hand or on a cluster."""
 
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
@@ -90,11 +91,13 @@ def command(
     if as_json:
         print_json({"cases": cases, "dialect": written_in.name, "provenance": origin})
         return
-    listed = [f"{case['model']}: {case['directory']}/Allrun" for case in cases[:SHOWN]]
+    listed = [f"{case['model']}: {quote(case['directory'])}/Allrun" for case in cases[:SHOWN]]
     if len(cases) > SHOWN:
         listed.append(f"and {len(cases) - SHOWN} more")
     reduced = [setting.name for setting in study.settings if not setting.model.outside]
     left = [f"'collect' solves {', '.join(reduced)} itself, without OpenFOAM"] if reduced else []
-    steps = f"run all with {out / ALL}, or as a Slurm array: cd {out} && sbatch {SLURM}; then: roughfilm collect {out}"
+    place = quote(str(out))
+    steps = f"run all with {quote(str(out / ALL))}, or as a Slurm array: cd {place} && sbatch {SLURM}; "
+    steps += f"then: roughfilm collect {place}"
     answer = f"{len(cases)} OpenFOAM cases for {written_in.releases}"
     print_all([*listed, *left, steps, written(answer, out)])

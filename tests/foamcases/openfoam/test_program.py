@@ -43,6 +43,25 @@ def test_a_program_can_be_stopped_by_who_watches_it(tmp_path):
     assert ended.code == -signal.SIGTERM
 
 
+def runs(process):
+    """Whether a process is there and is no dead one that nobody has waited for."""
+    try:
+        return "\nState:\tZ" not in Path(f"/proc/{process}/status").read_text()
+    except FileNotFoundError:
+        return False
+
+
+@pytest.mark.parametrize("end", ["exit 3", "sleep 60", "trap '' TERM; exit 0"])
+def test_a_program_that_breaks_leaves_no_child(tmp_path, end):
+    script = f"sleep 60 & echo $! > child.tmp && mv child.tmp child; {end}"
+    execute(tmp_path, ["sh", "-c", script], "log", (tmp_path / "child").is_file)
+    child = (tmp_path / "child").read_text().strip()
+    deadline = time.monotonic() + 20
+    while runs(child) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert not runs(child)
+
+
 def test_a_program_that_ends_just_before_it_is_stopped_has_its_own_code(tmp_path, monkeypatch):
     start, started = subprocess.Popen, []
 

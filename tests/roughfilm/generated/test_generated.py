@@ -445,3 +445,25 @@ def test_results_that_are_not_those_of_the_run_are_no_results(solved, tmp_path):
     messages = [one["message"] for one in found["failures"]]
     assert f"along/{last.name}/p was changed after the run; run the case again" in messages[0]
     assert "Allrun ended with the exit code 1; see its logs" in messages[1]
+
+
+def test_a_directory_that_a_shell_would_read_is_quoted(tmp_path):
+    (tmp_path / "study.toml").write_text(GROOVES)
+    done = run("generate", tmp_path / "study.toml", "--out", tmp_path / "a;b&c")
+    assert done.exit_code == 0
+    shown = "".join(done.stdout.split())
+    assert f"'{tmp_path}/a;b&c'&&sbatch" in shown
+    assert f"roughfilmcollect'{tmp_path}/a;b&c'" in shown
+
+
+@pytest.mark.parametrize("name", ["settings", "cases"])
+def test_an_empty_manifest_and_a_long_name_are_said(tmp_path, name):
+    generate(GROOVES, tmp_path / "out")
+    path = tmp_path / "out" / "manifest.json"
+    entries = json.loads(path.read_text())
+    for forged in ({}, {"a" * 5000: next(iter(entries[name].values()))}):
+        path.write_text(json.dumps(entries | {name: forged}))
+        done = run("collect", tmp_path / "out")
+        assert done.exit_code == 2
+        assert done.stderr.startswith("error: ")
+        assert len(done.stderr) < 1000
