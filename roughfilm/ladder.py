@@ -34,7 +34,7 @@ def find(kind: str, name: str) -> Model:
     'thin-film Navier-Stokes: inertia in full'
     """
     modules = model_modules(rom, foamcases, kind=kind)
-    if (kind, name) not in modules:
+    if not isinstance(name, str) or (kind, name) not in modules:
         raise InputError(f"model: got {name!r}; it must be one of {', '.join(model.name for model in models(kind))}")
     model: Model = importlib.import_module(modules[kind, name]).MODEL
     return model

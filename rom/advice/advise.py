@@ -146,11 +146,12 @@ def wanted(scene: Scene, name: str | None) -> str:
     if name is None:
         return next(iter(kind.compared))
     for quantity, title in (*kind.named.items(), *kind.reported.items()):
-        if name in (quantity, title):
+        if isinstance(name, str) and name in (quantity, title):
             return quantity
     titles = ", ".join(repr(title) for title in kind.titles.values())
+    got = repr(name)[:60]
     raise InputError(
-        f"quantity: got {name!r}; of a {scene.kind} it must be one of {titles}, or another one that a result shows"
+        f"quantity: got {got}; of a {scene.kind} it must be one of {titles}, or another one that a result shows"
     )
 
 

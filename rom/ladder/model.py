@@ -344,8 +344,8 @@ def of_kind(models: Sequence[Model], kind: str) -> tuple[Model, ...]:
 def find(models: Sequence[Model], kind: str, name: str) -> Model:
     """The model with a name among those for a kind of scene; InputError if there is none."""
     named = {model.name: model for model in of_kind(models, kind)}
-    if name not in named:
-        raise InputError(f"model: got {name!r}; it must be one of {', '.join(named)}")
+    if not isinstance(name, str) or name not in named:
+        raise InputError(f"model: got {repr(name)[:60]}; it must be one of {', '.join(named)}")
     return named[name]
 
 

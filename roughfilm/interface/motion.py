@@ -70,6 +70,8 @@ def march(
     if not isinstance(scene, Bearing):
         got = f"a scene of kind {scene.kind!r}" if isinstance(scene, Scene) else type(scene).__name__
         raise InputError(f"scene: got {got}; give a bearing")
+    if not isinstance(uncertainty, bool):
+        raise InputError(f"uncertainty: got {repr(uncertainty)[:60]}; give True or False")
     with finite_arithmetic("march"):
         return march_bearing(
             scene,

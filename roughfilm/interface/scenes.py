@@ -125,6 +125,8 @@ def replace(scene: Scene, key: str | Mapping[str, object], value: object = ...) 
     >>> rf.replace(dimple, "geometry.dimples.0.depth", "9 um").geometry.depth
     9e-06
     """
+    if not isinstance(key, str | Mapping):
+        raise InputError(f"key: got {repr(key)[:60]}; give a dotted key such as 'geometry.depth', or a dict of several")
     several = isinstance(key, Mapping)
     if several != (value is ...):
         raise InputError(f"value: {'got one beside a dict of keys; leave it out' if several else 'missing; give one'}")
@@ -160,8 +162,9 @@ def _json(place: str, value: object) -> str:
     """The value as JSON; InputError that names the place if it is nothing that a scene holds."""
     try:
         return json.dumps(value, default=lambda number: number.tolist())
-    except (AttributeError, TypeError, ValueError):
-        raise InputError(f"{place}: got {value!r:.60}; give a number, a text with a unit, or a list of these") from None
+    except (AttributeError, RecursionError, TypeError, ValueError):
+        got = type(value).__name__
+        raise InputError(f"{place}: got {got}; give a number, a text with a unit, or a list of these") from None
 
 
 def _without_none(entries: dict[str, Any]) -> dict[str, Any]:

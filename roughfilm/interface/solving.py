@@ -148,7 +148,7 @@ def solve(
     kind = checked_scene(scene).kind
     if model is None:
         own = {"resolution": resolution, "tolerance": tolerance, "scheme": scheme}
-        own["processes"] = processes if processes != 1 else None
+        own["processes"] = None if isinstance(processes, int) and processes == 1 else processes
         for name in (name for name, value in own.items() if value is not None):
             raise InputError(f"{name}: got {own[name]!r} without a model; name one of models(scene.kind)")
         return solve_as_advised(scene, within=within, quantity=quantity, progress=progress)[0]
@@ -299,8 +299,8 @@ def chosen_models(kind: str, names: Sequence[str] | None) -> tuple[Model, ...]:
     known = ladder.models(kind)
     if names is None:
         return known
-    if isinstance(names, str) or not names:
-        raise InputError(f"models: got {names!r}; give a list of names, such as {[known[0].name]}")
+    if not isinstance(names, list | tuple | set | frozenset) or not names:
+        raise InputError(f"models: got {repr(names)[:60]}; give a list of names, such as {[known[0].name]}")
     for name in names:
         ladder.find(kind, name)
     return tuple(model for model in known if model.name in names)

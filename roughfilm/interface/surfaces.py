@@ -74,7 +74,7 @@ def _real_numbers(heights: ArrayLike, form: str, remedy: str = "") -> NDArray[An
 def _pair(spacing: float | Sequence[float]) -> tuple[float, float]:
     try:
         dx, dy = np.broadcast_to(np.asarray(spacing, dtype=float), (2,))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError(f"spacing: got {spacing!r:.60}; give one length in m, or a pair (dx, dy)") from None
     return float(dx), float(dy)
 
@@ -240,11 +240,11 @@ def combine(
     for name, surface in (("first", first), ("second", second)):
         if not isinstance(surface, Surface):
             raise InputError(f"{name}: got {type(surface).__name__}; give a Surface, such as read_surface() returns")
-    if operation not in get_args(combination.Operation):
+    if not isinstance(operation, str) or operation not in get_args(combination.Operation):
         raise InputError(f"operation: got {operation!r:.60}; it must be 'difference' or 'sum'")
-    if level not in get_args(combination.Level):
+    if not isinstance(level, str) or level not in get_args(combination.Level):
         raise InputError(f"level: got {level!r:.60}; it must be 'unworn' or 'all'")
-    if mirror not in get_args(combination.Mirror):
+    if not isinstance(mirror, str) or mirror not in get_args(combination.Mirror):
         raise InputError(f"mirror: got {mirror!r:.60}; it must be 'x', 'y' or 'none'")
     steps = steps_of(recipe, combination.usual_entries(first, second))
     place = _place("registered" if shift is None and operation == "difference" else shift)

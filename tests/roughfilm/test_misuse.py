@@ -127,3 +127,29 @@ def test_what_are_no_cells() -> None:
         with pytest.raises(rf.InputError, match=r"^cells") as error:
             rf.march(scene, 1e-4, steps=1, cells=cells)
         line(error)
+
+
+NO_WORDS: list[Any] = [1, 1j, b"x", [1], np.zeros(2), np.array(["a", "b"]), {}, {"a"}, object(), LOOP]
+
+
+def test_what_are_no_words() -> None:
+    scene = rf.load_scene(SCENES / "pocket.toml")
+    surface = rf.Surface(heights=np.zeros((4, 4)), spacing=(1e-6, 1e-6))
+    calls = {
+        "model": lambda word: rf.solve(scene, model=word),
+        "quantity": lambda word: rf.advise(scene, quantity=word),
+        "models": lambda word: rf.compare(scene, models=word),
+        "operation": lambda word: rf.combine(surface, surface, operation=word),
+        "level": lambda word: rf.combine(surface, surface, level=word),
+        "mirror": lambda word: rf.combine(surface, surface, mirror=word),
+        "uncertainty": lambda word: rf.march(rf.load_scene(SCENES / "unbalanced_rotor.toml"), uncertainty=word),
+    }
+    for name, call in calls.items():
+        for word in NO_WORDS:
+            with pytest.raises(rf.InputError, match=rf"^{name.removesuffix('s')}") as error:
+                call(word)
+            line(error)
+    for word in (NO_WORDS[0], b"x", np.zeros(2), 1j, object()):
+        with pytest.raises(rf.InputError, match=r"^key: got ") as error:
+            rf.replace(scene, word, "8 um")  # type: ignore[arg-type]
+        line(error)
