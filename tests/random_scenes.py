@@ -274,7 +274,7 @@ def bearings(draw):
     if shape == "lobes":
         _shaft(draw, entries, speed, wide)
     elif not (shape == "washer" or geometry.get("joined")):
-        entries["boundary"] = draw(_boundary(wide))
+        entries["boundary"] = draw(boundaries(wide))
     elif entries["lubricant"].get("cavitation_pressure") == "0.0 Pa":
         entries["boundary"] = {"sides": {"low": "1e5 Pa", "high": "1e5 Pa"}}
     kind = draw(st.sampled_from(["smooth", "sinusoid", "surface", "surface"]))
@@ -294,19 +294,19 @@ def bearings(draw):
     return entries
 
 
-def _metres(**lengths):
+def metres(**lengths):
     return {key: f"{value!r} m" for key, value in lengths.items()}
 
 
 def _journal(draw, length, film, _rise):
     eccentricity = draw(part(0.0, 0.95))
-    return {**_metres(radius=length / 6, clearance=film / (1 - eccentricity)), "eccentricity": eccentricity}
+    return {**metres(radius=length / 6, clearance=film / (1 - eccentricity)), "eccentricity": eccentricity}
 
 
 def _lobes(draw, length, film, _rise):
     count = draw(st.integers(1, 5))
     whole = draw(st.booleans())
-    geometry = _metres(radius=length / 6, clearance=film) | {"lobes": count, "preload": draw(part(0.0, 0.7))}
+    geometry = metres(radius=length / 6, clearance=film) | {"lobes": count, "preload": draw(part(0.0, 0.7))}
     geometry |= {"first": f"{draw(part(-180, 180))!r} deg", "offset": draw(part(0.0, 1.0))}
     if not whole:
         geometry["arc"] = f"{360 / count * draw(part(0.3, 0.95))!r} deg"
@@ -333,11 +333,11 @@ def _shaft(draw, entries, speed, wide):
         slope = 0.3 * float(geometry["clearance"].split()[0]) / float(geometry["width"].split()[0])
         geometry["misalignment"] = [f"{slope * draw(part(-1.0, 1.0))!r} rad" for _ in range(2)]
     if "arc" in geometry and geometry["lobes"] > 1:
-        boundary = draw(_boundary(wide))
+        boundary = draw(boundaries(wide))
         if boundary["inlet"].get("theta", 1.0) >= 1:
             entries["boundary"] = {key: one for key, one in boundary.items() if key != "outlet"}
     elif "arc" in geometry:
-        entries["boundary"] = draw(_boundary(wide))
+        entries["boundary"] = draw(boundaries(wide))
     elif oil["cavitation_pressure"] == "0.0 Pa":
         entries["boundary"] = {"sides": {"low": "1e5 Pa", "high": "1e5 Pa"}}
 
@@ -345,7 +345,7 @@ def _shaft(draw, entries, speed, wide):
 def _sector(draw, length, film, rise):
     inner = length * draw(number(0.3, 3))
     return {
-        **_metres(inner_radius=inner, outer_radius=inner + length * draw(number(0.1, 1)), film=film, rise=rise),
+        **metres(inner_radius=inner, outer_radius=inner + length * draw(number(0.1, 1)), film=film, rise=rise),
         "angle": f"{draw(part(5, 120))!r} deg",
         "taper": draw(part(0.1, 1.0)),
         "joined": draw(st.booleans()),
@@ -354,34 +354,34 @@ def _sector(draw, length, film, rise):
 
 def _washer(draw, length, film, rise):
     inner, outer = length * 0.5, length * draw(part(0.6, 1.5))
-    entries = {**_metres(inner_radius=inner, outer_radius=outer, film=film), "pockets": draw(st.integers(1, 12))}
+    entries = {**metres(inner_radius=inner, outer_radius=outer, film=film), "pockets": draw(st.integers(1, 12))}
     if draw(st.booleans()):
         start = draw(part(0.0, 0.5))
-        pocket = {**_metres(depth=rise, extent=(outer - inner) * draw(part(0.1, 1.0)))}
+        pocket = {**metres(depth=rise, extent=(outer - inner) * draw(part(0.1, 1.0)))}
         entries["pocket"] = pocket | {"start": start, "share": draw(part(0.05, round(1 - start, 3)))}
     return entries
 
 
 def _wavy(draw, length, film, _rise):
     part_ = draw(part(0.05, 0.9))
-    entries = _metres(length=length, film=film, amplitude=film * part_, wavelength=length * draw(number(0.1, 1)))
-    return entries | (_metres(extent=length * draw(part(0.1, 1.0))) if draw(st.booleans()) else {})
+    entries = metres(length=length, film=film, amplitude=film * part_, wavelength=length * draw(number(0.1, 1)))
+    return entries | (metres(extent=length * draw(part(0.1, 1.0))) if draw(st.booleans()) else {})
 
 
 def _given(draw, length, film, rise):
     points = (draw(st.integers(2, 9)), draw(st.integers(2, 9)))
     heights = np.random.default_rng(draw(st.integers(2, 10**6))).uniform(0, rise, points)
-    return {**_metres(length=length, film=film), "thickness": written(heights)}
+    return {**metres(length=length, film=film), "thickness": written(heights)}
 
 
 _SHAPES = {
-    "parallel": lambda _draw, length, film, _rise: _metres(length=length, film=film),
-    "linear": lambda _draw, length, film, rise: _metres(length=length, film=film, rise=rise),
-    "step": lambda draw, length, film, rise: _metres(
+    "parallel": lambda _draw, length, film, _rise: metres(length=length, film=film),
+    "linear": lambda _draw, length, film, rise: metres(length=length, film=film, rise=rise),
+    "step": lambda draw, length, film, rise: metres(
         length=length, film=film, rise=rise, step=length * draw(part(0.05, 0.95))
     ),
     "parabolic": lambda draw, length, film, rise: (
-        _metres(length=length, film=film, rise=rise) | {"count": draw(st.integers(1, 3))}
+        metres(length=length, film=film, rise=rise) | {"count": draw(st.integers(1, 3))}
     ),
     "sinusoidal_inlet": _wavy,
     "squared_cosine_inlet": _wavy,
@@ -397,11 +397,11 @@ def _texture(draw, length, film, width):
     columns = draw(st.integers(1, 4))
     pitch = length / columns
     long = pitch * draw(part(0.1, 0.95))
-    entries = _metres(length=long, depth=min(film * draw(number(0.01, 10)), long), start=0.0, pitch=pitch)
+    entries = metres(length=long, depth=min(film * draw(number(0.01, 10)), long), start=0.0, pitch=pitch)
     entries |= {"columns": columns, "profile": draw(st.sampled_from(["box", "cylindrical"]))}
     if width is not None and draw(st.booleans()):
         rows = draw(st.integers(1, 3))
-        entries |= _metres(width=width / rows * draw(part(0.1, 0.95)), pitch_across=width / rows) | {"rows": rows}
+        entries |= metres(width=width / rows * draw(part(0.1, 0.95)), pitch_across=width / rows) | {"rows": rows}
         entries["profile"] = draw(st.sampled_from(["box", "cylindrical", "ellipsoidal"]))
     return entries
 
@@ -428,7 +428,7 @@ def _lubricant(draw):
     return entries
 
 
-def _boundary(wide):
+def boundaries(wide):
     pressure = text(number(1e3, 1e7), "Pa") | st.just("0 Pa")
     inlet = (
         st.just({})

@@ -6,9 +6,11 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, Phase, given, note, reject, settings
+from random_machines import machines
 from random_scenes import bearings, dry_contacts, mirrored, number, pockets, rough_gaps, seals, written
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
+from roughfilm.interface.motion import march
 from roughfilm.ladder import find, models
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
@@ -17,6 +19,7 @@ from roughfilm.stability.checks.invariants import broken
 OURS = (InputError, ConvergenceError, UnavailableError)
 
 SCENES = {
+    "machine": machines(),
     "pocket": pockets(),
     "bearing": bearings(),
     "dry_contact": dry_contacts(),
@@ -113,10 +116,11 @@ def value(result, name):
 
 
 @pytest.mark.parametrize(
-    ("kind", "count"), [("pocket", 25), ("bearing", 25), ("dry_contact", 30), ("seal", 20), ("rough_gap", 25)]
+    ("kind", "count"),
+    [("pocket", 25), ("bearing", 25), ("machine", 8), ("dry_contact", 30), ("seal", 20), ("rough_gap", 25)],
 )
 def test_every_rung_answers_as_the_laws_of_its_kind_allow(kind, count):
-    ladder = rungs(kind)
+    ladder = rungs("bearing" if kind == "machine" else kind)
 
     @examples(count)
     @given(SCENES[kind])
@@ -146,6 +150,20 @@ def test_every_rung_of_openfoam_does_too(kind, count):
             assert result is None or broken(scene, result) == []
 
     put()
+
+
+@examples(8)
+@given(machines())
+def test_a_machine_is_marched_or_says_in_one_line_why_not(entries):
+    scene = valid(entries)
+    with in_time(LIMIT):
+        try:
+            found = march(scene, cells=(16, 8), steps=4, uncertainty=False)
+        except OURS as error:
+            assert "\n" not in str(error)  # noqa: PT017
+            return
+    assert np.isfinite(found["film_min"]).all()
+    assert found["film_min"].min() > 0
 
 
 @examples(20)
