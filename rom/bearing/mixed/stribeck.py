@@ -223,7 +223,8 @@ def stribeck(
         for count, (pressure, points) in enumerate(curves.items()):
             words = f"{speed:.4g} m/s, {pressure * 1e-6:.4g} MPa"
             progress((number + count / len(curves)) / len(ordered), words)
-            before = point = done.get((pressure, speed))
+            before, still_air = done.get((pressure, speed)), 0.0
+            point = before
             cpu = working_time()
             if point is None:
                 try:
@@ -236,8 +237,9 @@ def stribeck(
                     refused[pressure] = error
                     continue
                 point = _with_flash(stribeck_point(state, search, pressure), state.scene)
+                still_air = _in_still_air(state)
             if speed in estimated and not point.uncertainty:
-                point = replace(point, uncertainty=_uncertainty(point, search, coarse))
+                point = replace(point, uncertainty=_uncertainty(point, search, coarse, still_air))
             if point is not before:
                 point = replace(point, cpu_s=point.cpu_s + working_time() - cpu)
                 keep(point)
@@ -306,8 +308,21 @@ def curve_search(
     )
 
 
-def _uncertainty(point: StribeckPoint, search: Search, coarse: Search) -> dict[str, float]:
-    """The uncertainty of a point from a grid with half as many cells; empty if that grid does not carry the load."""
+def _in_still_air(state: MixedState) -> float:
+    """The heat that a bearing gives off by a heat transfer that is estimated over all its heat; 0 where it is given."""
+    found = state.temperatures
+    if found is None or not found.estimated:
+        return 0.0
+    return found.to_surroundings / (found.to_surroundings + found.to_lubricant)
+
+
+def _uncertainty(point: StribeckPoint, search: Search, coarse: Search, still_air: float) -> dict[str, float]:
+    """The uncertainty of a point from a grid with half as many cells; empty if that grid does not carry the load.
+
+    Parameters
+    ----------
+    still_air : part of the heat that leaves by a heat transfer that is estimated, which may be half or twice as large.
+    """
     try:
         near = coarse.solved(point.speed, point.pressure, [(point.speed, point.separation)])
     except (InputError, ConvergenceError):
@@ -315,7 +330,11 @@ def _uncertainty(point: StribeckPoint, search: Search, coarse: Search) -> dict[s
             raise
         return {}
     slopes = search.slopes(point.speed, point.pressure, point.separation, point.film_load)
-    return uncertainties(point, stribeck_point(near, coarse, point.pressure), search, slopes)
+    found = uncertainties(point, stribeck_point(near, coarse, point.pressure), search, slopes)
+    if point.temperature is not None:
+        rise = point.temperature + ZERO_CELSIUS - search.scene.lubricant.liquid.temperature
+        found |= {name: found[name] + still_air * abs(rise) for name in TEMPERATURES}
+    return found
 
 
 def _check_range(resolution: int, tolerance: float) -> None:

@@ -67,7 +67,7 @@ def with_truth(kind: str, seed: int, scene: Scene) -> Judged:
     begun = time.process_time()
     known = Judged(kind=kind, seed=seed, scene=scene_entries(scene), truth={})
     try:
-        truth = truth_of(scene)
+        truth = truth_of(scene, kind)
     except (ConvergenceError, InputError) as error:  # of a load that no film carries
         return replace(known, failure=str(error))
     return replace(

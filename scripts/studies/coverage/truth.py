@@ -44,15 +44,15 @@ def kinds_with_truth() -> tuple[str, ...]:
     return tuple(sorted(drawn & solved))
 
 
-def truth_of(scene: Scene) -> Truth:
-    """Return the truth of a scene by ``truths/<kind>.py``, the kind as its laws name it.
+def truth_of(scene: Scene, kind: str = "") -> Truth:
+    """Return the truth of a scene by ``truths/<kind>.py``; by default of the kind as its laws name it.
 
     Raises
     ------
     ConvergenceError
         If the solution does not converge; the scene is then left out of the study, and counted.
     """
-    name = kind_of_scene(scene).name_of_laws
+    name = kind or kind_of_scene(scene).name_of_laws
     found: Any = importlib.import_module(f"scripts.studies.coverage.truths.{name}").truth(scene)
     assert isinstance(found, Truth)
     return found

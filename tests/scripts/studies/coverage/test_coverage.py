@@ -133,7 +133,7 @@ def test_the_truth_of_a_models_own_equations_is_that_of_todays_quantities(monkey
     own = {"reynolds": {"rupture": (1.0, 1e-9), "load_per_width": (5.0, 1e-9)}}
     truth = Truth(values={}, uncertainty={}, method="", own={"reynolds": {"rupture": (0.71, 1e-9)}})
     monkeypatch.setattr(study, "answers", lambda *_, **__: {"reynolds": now})
-    monkeypatch.setattr(study, "truth_of", lambda _: truth)
+    monkeypatch.setattr(study, "truth_of", lambda *_: truth)
 
     def judge(**before):
         models = {"reynolds": replace(now, values=now.values | before)}

@@ -53,6 +53,15 @@ def test_heated_bearings_heat_little_and_much_between_walls_of_every_kind():
     assert {one.lubricant.thermoviscosity.law for one in heated} == {"exponential", "iso_vg"}
 
 
+def test_hot_wedges_are_slow_and_fast_and_heat_little_and_much():
+    wedges = [drawn("hot_wedge", seed) for seed in range(20000, 20000 + COUNT)]
+    numbers = [bearing_numbers(one) for one in wedges]
+    for name, low, high in (("thermal_peclet_number", 0.3, 50.0), ("nahme_number", 0.1, 10.0)):
+        assert min(one[name] for one in numbers) < low
+        assert max(one[name] for one in numbers) > high
+    assert {one.heat is None for one in wedges} == {True, False}
+
+
 @pytest.mark.parametrize(("kind", "loaded"), [("free_bearing", True), ("placed_bearing", False)])
 def test_walls_that_move_freely_have_every_shape_supply_and_wall(kind, loaded):
     moving = [drawn(kind, seed) for seed in range(20000, 20000 + COUNT)]
