@@ -126,8 +126,8 @@ def write_inputs(file: "h5py.File", inputs: Inputs, schema: int) -> None:
     file.attrs["settings"] = json.dumps(inputs.settings, sort_keys=True, allow_nan=False)
 
 
-def write_column(file: "h5py.File", name: str, column: Sequence[float], unit: str) -> None:
-    """Write a column of numbers with its unit."""
+def write_column(file: "h5py.File", name: str, column: Sequence[float] | Sequence[Sequence[float]], unit: str) -> None:
+    """Write a column of numbers, or of rows of them, with its unit."""
     file.create_dataset(name, data=np.array(column, dtype=float)).attrs["unit"] = unit
 
 

@@ -55,14 +55,13 @@ def balanced_equilibrium(
     walls: Walls,
     cells: tuple[int, int],
     *,
-    start: Equilibrium | None = None,
     coarse: Equilibrium | None = None,
 ) -> Equilibrium:
     """The equilibrium of a bearing on a grid, with the heat of its film balanced if its lubricant has a temperature.
 
     The film has the viscosity at its temperature T, which is the one that its heat brings about, T_eq(T) = T, as in the
     model ``heat_balance`` (:func:`roughfilm.rom.bearing.thermal.exchange.temperatures`). The search begins at the
-    temperature on a coarser grid, else at that of the start, else at that of the supply. Where the temperature leaves
+    temperature on a coarser grid, else at that of the supply. Where the temperature leaves
     the viscosity as it is, the film stays that of the supplied lubricant to the last bit.
 
     Parameters
@@ -70,7 +69,6 @@ def balanced_equilibrium(
     scene : the bearing with the lubricant as it is supplied.
     walls : its walls, smooth or rough.
     cells : numbers of cells along and across.
-    start : an equilibrium near to it on the same grid.
     coarse : the equilibrium on a coarser grid.
 
     Raises
@@ -93,10 +91,9 @@ def balanced_equilibrium(
     def film_of(bearing: Bearing) -> FreeFilm:
         return free_film(bearing, cells, film=walls.film, contact=walls.contact, closest=walls.closest)
 
-    near = None if start is None else start.instant
     if scene.lubricant.lacking:
         film = film_of(scene)
-        return Equilibrium(film=film, instant=settled(film, near))
+        return Equilibrium(film=film, instant=settled(film, None))
     last: list[Equilibrium] = []
 
     def brought_about(temperature: float) -> float:
@@ -109,17 +106,17 @@ def balanced_equilibrium(
         if before is not None and film.solved is before.film.solved:
             instant = before.instant
         else:
-            instant = settled(film, near if before is None else before.instant)
+            instant = settled(film, None if before is None else before.instant)
         found = temperatures_of(scene, film, instant)
         last[:] = [Equilibrium(film=film, instant=instant, temperatures=found)]
         return found.effective
 
-    known, supplied = coarse or start, scene.lubricant.liquid.temperature
-    guess = None if known is None else known.temperatures
+    supplied = scene.lubricant.liquid.temperature
+    guess = None if coarse is None else coarse.temperatures
     found = balanced(
         brought_about,
         supplied if guess is None else guess.effective,
-        slope=0.0 if known is None else min(known.slope, 0.0),
+        slope=0.0 if coarse is None else min(coarse.slope, 0.0),
         coldest=coldest(scene, supplied),
         tolerance=TEMPERATURE_TOLERANCE,
     )

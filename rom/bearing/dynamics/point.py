@@ -96,6 +96,8 @@ class DynamicPoint:
     rotation : rotational speed ω, rad/s; 0 where nothing turns.
     numbers : value of each quantity by its name, in SI units; per width of an infinitely wide bearing.
     uncertainty : uncertainty of each of them; infinite where it is unknown.
+    spectrum : entries of stiffness and damping of a shaft by their names at the frequencies ``RATIOS_OF_MEMORY`` times
+        the rotation; empty for other walls.
     residual : larger of the relative residuals of the film and of the forces.
     cpu_s : CPU time, s.
     outside : the ways in which the film is outside the range of the model; the error of the numbers is then unknown.
@@ -107,6 +109,7 @@ class DynamicPoint:
     rotation: float
     numbers: Mapping[str, float]
     uncertainty: Mapping[str, float] = field(default_factory=dict)
+    spectrum: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     residual: float
     cpu_s: float
     outside: tuple[str, ...] = ()
@@ -135,11 +138,12 @@ class DynamicPoint:
 
 @dataclass(frozen=True, kw_only=True)
 class GridPoint:
-    """The numbers of a point on one grid without the whirl, and the whirl, which a wall that does not turn lacks."""
+    """The numbers of a point on one grid without the whirl, and whirl and spectrum, which only a shaft has."""
 
     cells: float
     numbers: Mapping[str, float]
     whirl: Whirl | None
+    spectrum: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
 
 
 def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
@@ -170,16 +174,17 @@ def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
     static = static_quantities(film, instant)
     power = "power_loss" if scene.wide else "power_loss_per_width"
     numbers |= {name: static[name].value for name in (*STATIC, *CONTACT) if name in static and name != power}
-    whirl = None
+    whirl, spectrum = None, {}
     if isinstance(scene.geometry, Shaft):
+        entries = [entries_of(at(float(ratio) * rotation)) for ratio in RATIOS_OF_MEMORY]
+        spectrum = {name: tuple(one[name] for one in entries) for name in entries[0]}
         whirl = _whirl(at, whole(0.0), kept, rotation, has_memory=motion.has_memory)
         frequency = math.sqrt(whirl.frequency_squared) if whirl.frequency_squared > 0 else math.nan
         at_whirl = at(frequency) if frequency > 0 else (np.full((2, 2), math.nan),) * 2
         numbers |= entries_of(at_whirl, beginning="whirl_")
         numbers["slow_ratio"] = slow_up_to(at, rotation, RATIOS_OF_MEMORY if motion.has_memory else RATIOS)
-    return GridPoint(
-        cells=math.prod(count for count in film.whole.grid.shape if count > 1) ** 0.5, numbers=numbers, whirl=whirl
-    )
+    cells = math.prod(count for count in film.whole.grid.shape if count > 1) ** 0.5
+    return GridPoint(cells=cells, numbers=numbers, whirl=whirl, spectrum=spectrum)
 
 
 def _whirl(at: At, slow: Matrices, kept: NDArray[np.bool_], rotation: float, *, has_memory: bool) -> Whirl:

@@ -6,7 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import h5py
+import numpy as np
+from scipy.interpolate import PchipInterpolator
 
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.checked_hdf5 import open_if_of, write_checked, write_column, write_inputs
 from roughfilm.contact.foundation.files import replacing
 from roughfilm.contact.foundation.inputs import Inputs
@@ -14,6 +17,7 @@ from roughfilm.contact.foundation.reading.hdf5_content import Json, Numbers
 from roughfilm.contact.foundation.writing.kinds import beginning_with
 from roughfilm.rom.bearing.dynamics.point import ENTRIES, UNITS, DynamicPoint
 from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve, dynamics
+from roughfilm.rom.bearing.dynamics.whirl import RATIOS_OF_MEMORY
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.mixed.curves import by_operation, curve_inputs, keeping
 from roughfilm.rom.bearing.scene import Bearing
@@ -38,6 +42,9 @@ OPERATION = {
 ROSS_MARK = b"# stiffness and damping of a bearing, from roughfilm, for ross.BearingElement.load\n"
 """First line of a table for ROSS."""
 
+SPAN_OF_FREQUENCIES, FREQUENCIES = (0.1, 2.0), 24
+"""Lowest frequency of a table for ROSS over the lowest rotational speed, highest over the highest, and their number."""
+
 ROSS_COLUMNS = {"k": "stiffness", "c": "damping"}
 ROWS = ("rows",)
 
@@ -59,7 +66,8 @@ def save_points(path: Path, inputs: Inputs, points: Sequence[DynamicPoint]) -> N
     """Write points in one step, in order of load and speed.
 
     ``points/`` has a column for each number of the operation, ``numbers/`` and ``uncertainty/`` one for each quantity;
-    numbers may be infinite or NaN. The attribute ``outside`` has the sentences of each point, as JSON.
+    numbers may be infinite or NaN. ``spectrum/`` has a row for each point, of stiffness and damping over frequency. The
+    attribute ``outside`` has the sentences of each point, as JSON.
 
     Raises
     ------
@@ -75,6 +83,8 @@ def save_points(path: Path, inputs: Inputs, points: Sequence[DynamicPoint]) -> N
         for name in ordered[0].numbers if ordered else ():
             write_column(file, f"numbers/{name}", [point.numbers[name] for point in ordered], UNITS[name])
             write_column(file, f"uncertainty/{name}", [point.uncertainty[name] for point in ordered], UNITS[name])
+        for name in ordered[0].spectrum if ordered else ():
+            write_column(file, f"spectrum/{name}", [point.spectrum[name] for point in ordered], UNITS[name])
         file.attrs["outside"] = json.dumps([point.outside for point in ordered])
 
     write_checked(path, MARK, fill)
@@ -96,6 +106,8 @@ def known_points(path: Path, inputs: Inputs) -> tuple[DynamicPoint, ...]:
         wanted = {f"points/{name}": Numbers(shape=ROWS) for name in OPERATION}
         for group in ("numbers", "uncertainty"):
             wanted |= {f"{group}/{name}": Numbers(shape=ROWS, missing=True, infinite=True) for name in names}
+        spectra = [name for name in UNITS if name in set(content.names("spectrum"))]
+        wanted |= {f"spectrum/{name}": Numbers(shape=(*ROWS, len(RATIOS_OF_MEMORY))) for name in spectra}
         columns = content.take(wanted)
         outside = content.one("@outside", Json(kind=tuple[tuple[str, ...], ...]))
     return tuple(
@@ -103,6 +115,7 @@ def known_points(path: Path, inputs: Inputs) -> tuple[DynamicPoint, ...]:
             **{name: columns[f"points/{name}"][row].item() for name in OPERATION},
             numbers={name: columns[f"numbers/{name}"][row].item() for name in names},
             uncertainty={name: columns[f"uncertainty/{name}"][row].item() for name in names},
+            spectrum={name: tuple(columns[f"spectrum/{name}"][row].tolist()) for name in spectra},
             outside=outside[row],
         )
         for row in range(len(columns["points/speed"]))
@@ -199,12 +212,18 @@ def dimensionless_of(scene: Bearing, point: DynamicPoint) -> dict[str, float]:
     }
 
 
-def write_ross(path: Path, scene: Bearing, curve: DynamicCurve) -> None:
+def write_ross(path: Path, scene: Bearing, curve: DynamicCurve, *, version: int = 3) -> None:
     """Write the coefficients of a shaft under one load as a bearing element that ROSS loads.
 
     ``ross.BearingElement.load(path)`` gives the element at the node 0: kxx to kyy, N/m, cxx to cyy, N s/m, over the
-    rotational speed ``frequency``, rad/s. In ROSS as here x is horizontal, y vertical, and the shaft turns from x to y;
-    of a shaft that turns from y to x, the axis x is turned round.
+    rotational speed ``speed`` and the frequency of the whirl ``frequency``, rad/s, which has the rotational speeds
+    among its values. ROSS before version 3 has one axis, ``frequency``, which stands for the rotational speed. In ROSS
+    as here x is horizontal, y vertical, and the shaft turns from x to y; of a shaft that turns from y to x, the axis x
+    is turned round.
+
+    Parameters
+    ----------
+    version : the version of ROSS, 2 or 3; for 2 the coefficients are those at the one frequency of the points.
 
     Raises
     ------
@@ -214,21 +233,36 @@ def write_ross(path: Path, scene: Bearing, curve: DynamicCurve) -> None:
     Source: Timbó et al. 2020, doi:10.21105/joss.02120.
     """
     points, mirrored = curve.points, -1.0 if scene.motion.speed < 0 else 1.0
-    entries: dict[str, object] = {
-        "n": 0,
-        "tag": scene.name or "bearing",
-        "frequency": [point.rotation for point in points],
-    }
+    rotations = [point.rotation for point in points]
+    slowest, fastest = SPAN_OF_FREQUENCIES[0] * rotations[0], SPAN_OF_FREQUENCIES[1] * rotations[-1]
+    frequencies = np.union1d([0.0, *rotations], np.geomspace(slowest, fastest, FREQUENCIES))
+    entries: dict[str, object] = {"n": 0, "tag": scene.name or "bearing"}
+    if version < 3:
+        entries["frequency"] = rotations
+    else:  # a table of one speed has one axis
+        entries |= {"speed": rotations} if len(points) > 1 else {}
+        entries["frequency"] = frequencies.tolist()
     for letter, matrix in ROSS_COLUMNS.items():
         for entry in ENTRIES[2]:
-            sign = 1.0 if entry in ("_xx", "_yy") else mirrored
-            entries[f"{letter}{entry[1:]}"] = [sign * point.numbers[f"{matrix}{entry}"] for point in points]
+            name, sign = f"{matrix}{entry}", 1.0 if entry in ("_xx", "_yy") else mirrored
+            rows = [sign * point.numbers[name] for point in points]
+            table = [(sign * _at_frequencies(point, name, frequencies)).tolist() for point in points]
+            entries[f"{letter}{entry[1:]}"] = rows if version < 3 else table if len(points) > 1 else table[0]
     lines = [f"{key} = {json.dumps(value)}" for key, value in entries.items()]
     lines += [
         f"# at {point.rotation:.4g} rad/s outside the range of the model: {'; '.join(point.outside)}"
         for point in points
         if point.outside
     ]
-    text = ROSS_MARK.decode() + "[BearingElement_bearing]\n" + "\n".join(lines) + "\n"
+    mark = ROSS_MARK.decode() + f"# for ROSS {'3 or later' if version >= 3 else 'before version 3'}\n"
+    text = mark + "[BearingElement_bearing]\n" + "\n".join(lines) + "\n"
     with replacing(path, beginning_with("a bearing element for ROSS", ROSS_MARK)) as scratch:
         scratch.write_text(text, encoding="utf-8")
+
+
+def _at_frequencies(point: DynamicPoint, name: str, frequencies: Array) -> Array:
+    """An entry of stiffness or damping at frequencies, rad/s, between those of its spectrum, at whose ends it stays."""
+    known = RATIOS_OF_MEMORY
+    return np.asarray(
+        PchipInterpolator(known, point.spectrum[name])(np.clip(frequencies / point.rotation, known[0], known[-1]))
+    )

@@ -96,9 +96,9 @@ def dynamics(
 ) -> tuple[DynamicCurve, ...]:
     """Compute equilibrium, stiffness and damping of a bearing at several speeds and loads.
 
-    Each film starts from that of the speed before, on three grids with a quarter, half and all of the cells, from which
-    the uncertainty is estimated; that of flow factors and contact pressures adds to it. Points without an equilibrium
-    are left out.
+    Films are solved on three grids with a quarter, half and all of the cells, each from the one before, from which the
+    uncertainty is estimated; that of flow factors and contact pressures adds to it. Points without an equilibrium are
+    left out.
 
     If the lubricant of the scene has a temperature (``thermoviscosity``, ``density`` and ``heat_capacity``), the film
     of each point, on each grid, has the one at which its heat is balanced
@@ -129,14 +129,12 @@ def dynamics(
     done = {(point.pressure, point.speed): point for point in known}
     walls, curves = walls_of(scene), []
     for number, pressure in enumerate(sorted(pressures)):
-        started: dict[int, Equilibrium] = {}
         points: list[DynamicPoint] = []
         omitted: list[Omitted] = []
         refused: InputError | ConvergenceError | None = None
 
-        def at(speed: float, pressure: float = pressure, started: dict[int, Equilibrium] = started) -> DynamicPoint:
-            operation = at_operation(scene, speed, pressure)
-            return dynamic_point(operation, walls, pressure, resolution, frequency_ratio, started)
+        def at(speed: float, pressure: float = pressure) -> DynamicPoint:
+            return dynamic_point(at_operation(scene, speed, pressure), walls, pressure, resolution, frequency_ratio)
 
         for count, speed in enumerate(ordered):
             progress((number + count / len(ordered)) / len(pressures), f"{speed:.4g} m/s, {pressure * 1e-6:.4g} MPa")
@@ -176,18 +174,15 @@ def dynamic_point(
     pressure: float,
     resolution: int,
     frequency_ratio: float,
-    started: dict[int, Equilibrium],
 ) -> DynamicPoint:
-    """The point of a bearing at its speed and load.
+    """The point of a bearing at its speed and load, which depends on no other point: a resumed sweep has the same.
 
     Parameters
     ----------
     walls : its walls, smooth or rough.
-    started : an equilibrium near that of the point on each grid, by the coarsening of the grid; replaced by those of
-        the point.
     """
     cpu = working_time()
-    solved = list(_equilibria(scene, walls, resolution, started))
+    solved = list(_equilibria(scene, walls, resolution))
     points = [point_of(one, frequency_ratio) for one in reversed(solved)]
     if points[0].numbers.get("stiffness", 1.0) <= 0:
         raise InputError(
@@ -215,6 +210,7 @@ def dynamic_point(
         rotation=rotation,
         numbers=numbers,
         uncertainty=uncertainty,
+        spectrum=points[0].spectrum,
         residual=max(instant.residual, instant.force_residual),
         cpu_s=working_time() - cpu,
         outside=(*film_outside(placed(film, instant), solution), *_of_lubricant(scene, solved[-1])),
@@ -227,9 +223,7 @@ def _of_lubricant(scene: Bearing, found: Equilibrium) -> list[str]:
     return [] if heated is None else scene.lubricant.beyond(heated.effective, heated.effective)
 
 
-def _equilibria(
-    scene: Bearing, walls: Walls, resolution: int, started: dict[int, Equilibrium]
-) -> Iterator[Equilibrium]:
+def _equilibria(scene: Bearing, walls: Walls, resolution: int) -> Iterator[Equilibrium]:
     """The equilibrium on each grid, from coarse to fine; coarse ones may be missing.
 
     A coarse grid may lack an equilibrium that the others have; two of them are taken to show that there is none.
@@ -241,15 +235,13 @@ def _equilibria(
         if coarsening != COARSENING[-1] and resolution // coarsening < least:
             continue
         cells = resolution // coarsening, resolution // coarsening // 2
-        start = started.pop(coarsening, None)
         try:
-            coarse = balanced_equilibrium(scene, walls, cells, start=start, coarse=coarse)
+            coarse = balanced_equilibrium(scene, walls, cells, coarse=coarse)
         except (InputError, ConvergenceError) as error:
             refused += isinstance(error, InputError)
             if coarsening == COARSENING[-1] or refused > 1:
                 raise
             continue
-        started[coarsening] = coarse
         yield coarse
 
 
@@ -280,13 +272,12 @@ def onset_of(
     before, after = points[above - 1], points[above]
     if not math.isfinite(excess[above]):
         return Onset(mass=mass, rotation=after.rotation, uncertainty=after.rotation - before.rotation)
-    started: dict[int, Equilibrium] = {}
     tried: dict[float, DynamicPoint] = {before.speed: before, after.speed: after}
 
     def at(speed: float) -> float:
         if speed not in tried:
             operation = at_operation(scene, speed, before.pressure)
-            tried[speed] = dynamic_point(operation, walls, before.pressure, resolution, frequency_ratio, started)
+            tried[speed] = dynamic_point(operation, walls, before.pressure, resolution, frequency_ratio)
         return _excess(tried[speed], mass)
 
     speed = float(brentq(at, before.speed, after.speed, rtol=ONSET_TOLERANCE, xtol=ONSET_TOLERANCE * before.speed))

@@ -92,6 +92,10 @@ def command(
             show_default=False,
         ),
     ] = 1.0,
+    ross: Annotated[
+        int,
+        typer.Option(metavar="VERSION", help="Version of ROSS for its table, 2 or 3 (default 3).", show_default=False),
+    ] = 3,
     isothermal: Annotated[
         bool, typer.Option("--isothermal", help="All films at the temperature of the supplied lubricant.")
     ] = False,
@@ -106,6 +110,7 @@ def command(
     low, high = FREQUENCY_RATIOS
     if not low <= frequency_ratio <= high:
         raise InputError(f"--frequency-ratio: got {frequency_ratio!r}; it must be {low:g} to {high:g}")
+    ross = whole_in_range("--ross", ross, 2, 3)
     page, stored = out / "report.html", out / "dynamics.h5"
     make_directory(out)
     refuse_unwritable((page, PAGE), (stored, marked(MARK)), (stored.with_suffix(".json"), JSON))
@@ -120,7 +125,7 @@ def command(
             mass=mass_of(bearing),
             progress=lambda done, words: advance(0.95 * done, words),
         )
-        tables = _write_tables(out, bearing, curves)
+        tables = _write_tables(out, bearing, curves, ross)
         entries = curve_entries(bearing, curves)
         entries["numerics"] |= {
             "points_found": known,
@@ -160,13 +165,13 @@ def _pressures(bearing: Bearing, text: str | None) -> tuple[float, ...]:
     return (bearing.load_pressure,)
 
 
-def _write_tables(out: Path, bearing: Bearing, curves: Sequence[DynamicCurve]) -> list[Path]:
+def _write_tables(out: Path, bearing: Bearing, curves: Sequence[DynamicCurve], version: int) -> list[Path]:
     """Write the table for ROSS of each load; none of a wall that is no shaft, and of an infinitely wide one."""
     if bearing.wide or "whirl_ratio" not in curves[0].points[0].numbers:
         return []
     names = ["ross.toml"] if len(curves) == 1 else [f"ross_{number + 1}.toml" for number in range(len(curves))]
     for name, curve in zip(names, curves, strict=True):
-        write_ross(out / name, bearing, curve)
+        write_ross(out / name, bearing, curve, version=version)
     return [out / name for name in names]
 
 

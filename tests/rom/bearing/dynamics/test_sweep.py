@@ -107,6 +107,16 @@ def test_the_mass_is_that_of_the_body_of_the_scene_and_has_no_part_in_the_points
     assert point_inputs(heavy, CELLS, 1.0).digest == point_inputs(scene(), CELLS, 1.0).digest
 
 
+def test_a_point_is_the_same_to_the_last_bit_after_other_points_and_alone():
+    """A sweep that was stopped goes on to the numbers that it would have found at once."""
+    grooved = scene()
+    (whole,) = dynamics(grooved, [5.0, 10.0, 20.0], [PRESSURE], resolution=CELLS)
+    (rest,) = dynamics(grooved, [5.0, 10.0, 20.0], [PRESSURE], resolution=CELLS, known=whole.points[:2])
+    assert rest.points[2].numbers == whole.points[2].numbers
+    assert rest.points[2].spectrum == whole.points[2].spectrum
+    assert rest.points[2].uncertainty == whole.points[2].uncertainty
+
+
 def test_dimensionless_coefficients_depend_on_the_sommerfeld_number_alone(curve):
     """Twice the viscosity at half the speed, and another size of bearing at the same ratios."""
     one = dimensionless_of(scene(), curve.points[2])
@@ -128,7 +138,14 @@ def test_a_shaft_that_turns_back_is_the_mirror_image_and_its_table_for_ross_is_t
     write_ross(tmp_path / "forth.toml", scene(), curve)
     write_ross(tmp_path / "back.toml", bearing, back)
     forth, mirrored = (numbers_of(tmp_path / f"{name}.toml") for name in ("forth", "back"))
-    assert mirrored["kxy"] == pytest.approx(forth["kxy"], rel=1e-6)
+    assert np.shape(forth["kxy"]) == (len(forth["speed"]), len(forth["frequency"]))
+    assert np.array(mirrored["kxy"]) == pytest.approx(np.array(forth["kxy"]), rel=1e-6)
+    for name, version in (("old", 2), ("new", 3)):
+        write_ross(tmp_path / f"{name}.toml", scene(), curve, version=version)
+    old, new = (numbers_of(tmp_path / f"{name}.toml") for name in ("old", "new"))
+    assert old.keys() == new.keys() - {"speed"}
+    assert old["frequency"] == new["speed"]
+    assert old["kxx"] == [point.numbers["stiffness_xx"] for point in curve.points]
 
 
 def numbers_of(path):
@@ -204,9 +221,9 @@ def test_numbers_out_of_range_are_refused(change, message):
 
 
 def test_other_shapes_are_refused():
-    journal = {"shape": "journal", "radius": "50 mm", "clearance": "50 um", "width": "50 mm"}
-    with pytest.raises(InputError, match=r"geometry\.shape: got 'journal'"):
-        dynamics(scene(journal), [1.0], [1e6])
+    pad = {"shape": "pad", "length": "50 mm", "width": "50 mm", "rise": "20 um"}
+    with pytest.raises(InputError, match=r"geometry\.shape: got 'pad'"):
+        dynamics(scene(pad), [1.0], [1e6])
 
 
 def test_points_are_kept_and_not_solved_again(curve, tmp_path):

@@ -52,7 +52,10 @@ def test_files_and_entries_hold_the_same_numbers(swept):
     for number, curve in enumerate(entries["curves"]):
         (element,) = tomllib.loads((out / f"ross_{number + 1}.toml").read_text(encoding="utf-8")).values()
         points = curve["points"]
-        assert element["kxy"] == [point["stiffness_xy"] for point in points]
+        assert element["speed"] == [point["rotation"] for point in points]
+        for row, point in zip(element["kxy"], points, strict=True):
+            synchronous = row[element["frequency"].index(point["rotation"])]
+            assert synchronous == pytest.approx(point["stiffness_xy"], rel=1e-12)
         for point in points:
             scale = 50e-6 / point["load"]
             assert point["dimensionless_stiffness_xx"] == pytest.approx(scale * point["stiffness_xx"])
@@ -132,9 +135,9 @@ def test_temperatures_are_left_out_at_request_and_where_they_cannot_be_computed_
 
 
 def test_a_shape_whose_wall_is_given_is_refused(tmp_path):
-    done = run("--out", tmp_path / "out", scene=SCENES / "journal.toml")
+    done = run("--out", tmp_path / "out", scene=SCENES / "pad.toml")
     assert done.exit_code == 2
-    assert "geometry.shape: got 'journal'" in " ".join(done.stderr.split())
+    assert "geometry.shape: got 'pad'" in " ".join(done.stderr.split())
 
 
 def test_the_load_on_asperities_has_a_column_and_stands_in_the_answer(tmp_path):
