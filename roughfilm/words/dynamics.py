@@ -8,6 +8,7 @@ from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint
 from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve
 from roughfilm.rom.bearing.dynamics.whirl import SAME
+from roughfilm.rom.bearing.free.film import refilled
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.words.numbers import digits
 from roughfilm.words.outside import outside_in_words, outside_of_series
@@ -117,6 +118,11 @@ def warnings_of(scene: Bearing, curve: DynamicCurve) -> list[str]:
     if curve.omitted:
         speeds = ", ".join(digits(scale.factor * one.speed) for one in curve.omitted)
         warnings.append(f"{load}: left out at {speeds} {scale.unit}: {curve.omitted[0].reason}")
+    if refilled(scene):
+        warnings.append(
+            "the sides of the bore are at the cavitation pressure, and nothing else supplies it: oil around it is "
+            "taken to fill its cavities at once; give [[supply]] for a bore in air"
+        )
     unstable = [point for point in curve.points if point.numbers.get("critical_mass") == 0]
     if unstable:
         warnings.append(

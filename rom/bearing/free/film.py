@@ -161,22 +161,27 @@ def free_film(
     count = max(cells[1] // 2, 1)
     upper = None if half is None else grid(half.shape, (cells[0], count))
     nodes = grid(at_rest.shape, (cells[0], 2 * count)) if upper is None else doubled(upper)
-    inflows, sides = (*gaps, *at_rest.inflows), at_rest.ends.sides
-    unsupplied = at_rest.shape.joined[0] and not inflows and sides is not None and max(sides) <= 0
     whole = MovingFilm(
         problem=at_rest.on(nodes),
         grid=nodes,
         normals=modes,
-        inflows=inflows,
+        inflows=(*gaps, *at_rest.inflows),
         ambient=-scene.lubricant.cavitation_pressure,
         ruptures=ruptures,
-        refills=ruptures and unsupplied,
+        refills=ruptures and refilled(scene),
         contact=contact,
         closest=closest,
         turns=wall.turns,
     )
     solved = whole if half is None or upper is None else replace(whole, problem=half.on(upper), grid=upper, halved=True)
     return FreeFilm(scene=scene, wall=wall, whole=whole, solved=solved, turned=turned)
+
+
+def refilled(scene: Bearing) -> bool:
+    """Whether liquid from the sides fills all cavities of a bearing: a bore without gaps that nothing else supplies."""
+    geometry, sides = scene.geometry, scene.boundary.sides
+    unsupplied = isinstance(geometry, Lobes) and geometry.joined and not scene.wide and not scene.supply
+    return unsupplied and max(sides.low, sides.high) <= scene.lubricant.cavitation_pressure
 
 
 def _mirrored(function: Callable[[Array, Array], Values], ends: float) -> Callable[[Array, Array], Values]:

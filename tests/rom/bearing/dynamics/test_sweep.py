@@ -221,9 +221,9 @@ def test_numbers_out_of_range_are_refused(change, message):
 
 
 def test_other_shapes_are_refused():
-    pad = {"shape": "pad", "length": "50 mm", "width": "50 mm", "rise": "20 um"}
-    with pytest.raises(InputError, match=r"geometry\.shape: got 'pad'"):
-        dynamics(scene(pad), [1.0], [1e6])
+    pad = {"shape": "linear", "length": "50 mm", "width": "50 mm", "film": "20 um", "rise": "20 um"}
+    with pytest.raises(InputError, match=r"geometry\.shape: got 'linear'"):
+        dynamics(scene(pad, speed="10 m/s"), [1.0], [1e6])
 
 
 def test_points_are_kept_and_not_solved_again(curve, tmp_path):
@@ -253,9 +253,12 @@ def test_tables_have_a_row_for_each_speed(curve, tmp_path):
     assert (tmp_path / "resumed.csv").read_text(encoding="utf-8").splitlines() == lines
     write_ross(tmp_path / "ross.toml", scene(), curve)
     element = numbers_of(tmp_path / "ross.toml")
-    assert element["frequency"] == [point.rotation for point in curve.points]
+    assert element["speed"] == [point.rotation for point in curve.points]
     for column, entry in (("kxx", "stiffness_xx"), ("cyx", "damping_yx")):
-        assert element[column] == [point.numbers[entry] for point in curve.points]
+        synchronous = [
+            row[element["frequency"].index(at)] for row, at in zip(element[column], element["speed"], strict=True)
+        ]
+        assert synchronous == pytest.approx([point.numbers[entry] for point in curve.points], rel=1e-12)
 
 
 def test_the_side_leakage_beside_grooves_of_another_pressure_is_unknown():

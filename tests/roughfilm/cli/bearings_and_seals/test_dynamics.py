@@ -137,7 +137,7 @@ def test_temperatures_are_left_out_at_request_and_where_they_cannot_be_computed_
 def test_a_shape_whose_wall_is_given_is_refused(tmp_path):
     done = run("--out", tmp_path / "out", scene=SCENES / "pad.toml")
     assert done.exit_code == 2
-    assert "geometry.shape: got 'pad'" in " ".join(done.stderr.split())
+    assert "geometry.shape: got 'linear'" in " ".join(done.stderr.split())
 
 
 def test_the_load_on_asperities_has_a_column_and_stands_in_the_answer(tmp_path):
