@@ -2,13 +2,16 @@
 
 import ast
 import hashlib
+import json
 import os
 import platform
 import re
 import subprocess
+import sys
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from functools import cache
+from importlib.util import cache_from_source
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +24,9 @@ LIBRARY = Path(__file__).parents[2]
 
 DEFERRED = re.compile(rb'\bdeferred\(\s*"([\w.]+)"')
 """Imports that wait until the first call, see ``roughfilm.contact.foundation.deferred``."""
+
+MOST_KNOWN = 4000
+"""Number of source files, changed ones counted again, from which on they are parsed anew."""
 
 BLOCKS = (ast.stmt, ast.ExceptHandler, ast.match_case)
 """Classes of the nodes of a syntax tree that are statements or contain statements."""
@@ -87,13 +93,57 @@ def imported_code(*modules: str) -> str:
 
 def _code_of(modules: Sequence[str]) -> str:
     statements: dict[str, bytes] = {}
-    pending = [*modules]
+    known = _known(place := _kept_at())
+    pending, before = [*modules], len(known)
     while pending:
         name = pending.pop()
-        if name not in statements:
-            statements[name], imports = _statements(LIBRARY.parent / f"{name.replace('.', '/')}.py")
-            pending += imports
+        if name in statements:
+            continue
+        path = LIBRARY.parent / f"{name.replace('.', '/')}.py"
+        if not path.is_file():  # as for the name of an imported function
+            statements[name] = b""
+            continue
+        text = path.read_bytes()
+        source = hashlib.sha256(text).hexdigest()
+        if source not in known:
+            known[source] = _statements(text)
+        of_module, *imports = known[source]
+        statements[name] = of_module.encode()
+        pending += imports
+    if len(known) > before:
+        _keep(known, place)
     return _digest(statements) if any(statements.values()) else code()
+
+
+def _kept_at() -> Path:
+    """The file of what is known about source files, beside the bytecode of this library."""
+    return Path(cache_from_source(str(LIBRARY / "statements.py"))).with_suffix(".json")
+
+
+@cache
+def _known(place: Path) -> dict[str, list[str]]:
+    """The digest of the statements of source files and what they import, by the digest of each file.
+
+    To parse them all takes half of the CPU time in which a process starts.
+    """
+    try:
+        entries = json.loads(place.read_text(encoding="utf-8"))
+        known = {source: [str(word) for word in words] for source, words in entries.items() if words}
+        return known if len(known) < MOST_KNOWN else {}
+    except (OSError, ValueError, AttributeError, TypeError):
+        return {}
+
+
+def _keep(known: Mapping[str, Sequence[str]], place: Path) -> None:
+    """Keep it for later processes where that is possible, as Python keeps bytecode."""
+    beside = place.with_suffix(f".{os.getpid()}")
+    try:
+        if not sys.dont_write_bytecode:
+            place.parent.mkdir(exist_ok=True)
+            beside.write_text(json.dumps(known), encoding="utf-8")
+            beside.replace(place)
+    except OSError:
+        beside.unlink(missing_ok=True)
 
 
 def _digest(contents: Mapping[str, bytes]) -> str:
@@ -103,15 +153,8 @@ def _digest(contents: Mapping[str, bytes]) -> str:
     return digest.hexdigest()[:16]
 
 
-@cache
-def _statements(path: Path) -> tuple[bytes, frozenset[str]]:
-    """The statements of a module without docstrings, and all names in this library that it imports.
-
-    Both are empty if the file does not exist, as for the name of an imported function.
-    """
-    if not path.is_file():
-        return b"", frozenset()
-    text = path.read_bytes()
+def _statements(text: bytes) -> list[str]:
+    """A digest of the statements of a module without docstrings, and then all names in this library that it imports."""
     tree = ast.parse(text)
     imports = {f"roughfilm.{module.decode()}" for module in DEFERRED.findall(text)}
     pending: list[ast.AST] = [tree]
@@ -125,7 +168,8 @@ def _statements(path: Path) -> tuple[bytes, frozenset[str]]:
             if isinstance(entries, list) and entries and isinstance(entries[0], BLOCKS):
                 entries[:] = [entry for entry in entries if not _is_text(entry)]
                 pending += entries
-    return ast.dump(tree).encode(), frozenset(name for name in imports if name.startswith("roughfilm."))
+    digest = hashlib.sha256(ast.dump(tree).encode()).hexdigest()
+    return [digest, *sorted(name for name in imports if name.startswith("roughfilm."))]
 
 
 def _is_text(node: ast.AST) -> bool:

@@ -1,5 +1,7 @@
 """The digest of a model's code changes with all that may change its numbers, and with nothing else."""
 
+import sys
+
 import pytest
 
 from roughfilm import foamcases, rom
@@ -60,6 +62,33 @@ def test_a_change_of_what_is_imported_directly_or_not_counts(digest, changes):
 def test_a_change_of_what_is_imported_at_the_first_call_counts(digest):
     thin = {"rom/gap/models/thin.py": 'MODEL = deferred("contact.unrelated", "OTHER")\n'}
     assert digest(thin | {"contact/unrelated.py": "OTHER = 2"}) != digest(thin)
+
+
+@pytest.fixture
+def anew(monkeypatch):
+    """The digest in a process that finds what others have kept in a file."""
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+
+    def digest(kept):
+        monkeypatch.setattr(provenance, "_kept_at", lambda: kept)
+        provenance._known.cache_clear()
+        model_code.cache_clear()
+        return model_code("seal", "effective_medium")
+
+    yield digest
+    model_code.cache_clear()
+
+
+def test_source_files_that_are_known_are_not_parsed_again(anew, tmp_path, monkeypatch):
+    first = anew(tmp_path / "known.json")
+    monkeypatch.setattr(provenance, "_statements", None)
+    assert anew(tmp_path / "known.json") == first
+
+
+@pytest.mark.parametrize("words", ["", "[", "[1]", '{"a": 3}', '{"a": []}'])
+def test_the_digest_does_not_depend_on_what_is_kept(anew, tmp_path, words):
+    (tmp_path / "damaged.json").write_text(words)
+    assert anew(tmp_path / "damaged.json") == anew(tmp_path / "none.json") == anew(tmp_path / "none" / "cannot" / "be")
 
 
 def test_every_model_has_a_digest_of_its_own():
