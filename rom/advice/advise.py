@@ -147,7 +147,8 @@ def wanted(scene: Scene, name: str | None) -> str:
         return next(iter(kind.compared))
     for quantity, title in (*kind.named.items(), *kind.reported.items()):
         if isinstance(name, str) and name in (quantity, title):
-            return quantity
+            per_width = f"{quantity}_per_width"
+            return per_width if getattr(scene, "wide", False) and per_width in kind.reported else quantity
     titles = ", ".join(repr(title) for title in kind.titles.values())
     got = repr(name)[:60]
     raise InputError(

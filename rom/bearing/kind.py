@@ -357,7 +357,6 @@ KIND = Kind(
         "contact_load_per_width": "load by contact",
         "film_load_per_width": "load by the film",
         "least_gap": "least gap",
-        "power_loss_per_width": "power loss",
         **DEGREES,
     },
     reported=REPORTED,
