@@ -12,9 +12,11 @@ from roughfilm.foamcases.bearing.units import pressure_difference, velocity_unit
 from roughfilm.foamcases.openfoam.block_mesh import in_space, write_block
 from roughfilm.foamcases.openfoam.dialect import Dialect
 from roughfilm.foamcases.openfoam.dictionaries import write_files
+from roughfilm.foamcases.openfoam.iterate import Settled
 from roughfilm.foamcases.openfoam.one_flow import write_flow
 from roughfilm.foamcases.openfoam.relaxation import velocity_relaxation
-from roughfilm.foamcases.openfoam.residuals import Judged
+from roughfilm.foamcases.openfoam.residuals import PLANE, Judged, judged_fields
+from roughfilm.foamcases.openfoam.settling import settled_within
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.wide_pad.gap import film_obstacle
 from roughfilm.rom.ladder.request import CheckedRequest
@@ -70,6 +72,15 @@ class PadCard:
         """The criteria of a converged flow."""
         return Judged(fields=tuple(self.judged))
 
+    @property
+    def settles(self) -> bool:
+        """Whether the run ends by its mean velocity, since the residual of the velocity across is round-off."""
+        return tuple(self.judged) != PLANE
+
+    def settled(self, directory: Path) -> Settled | None:
+        """The test that ends the run of the case in a directory; None if residuals end it."""
+        return settled_within(self.tolerance, directory, self.criteria) if self.settles else None
+
 
 def write_pad_case(
     scene: Bearing,
@@ -102,6 +113,7 @@ def write_pad_case(
         raise InputError(f"scene: has no OpenFOAM case, as {obstacle}")
     mesh, film, speed = plane_of(scene, request.resolution), scene.geometry.thinnest, velocity_unit(scene)
     stepped, inclined = bool(mesh.lowest.any()), _steepest(mesh) > MIN_SLOPE
+    along, across = np.diff(mesh.vertices[..., 0], axis=0), np.diff(mesh.vertices[..., 1], axis=1)
     card = PadCard(
         columns=mesh.kept.shape[0],
         layers=mesh.kept.shape[1],
@@ -113,7 +125,7 @@ def write_pad_case(
         processes=request.processes,
         dialect=dialect.name,
         lowest=mesh.lowest.tolist() if stepped else [],
-        judged=["Ux", "Uy", "p"] if inclined else ["Ux", "p"],
+        judged=list(judged_fields(PLANE, along, across)) if inclined else ["Ux", "p"],
     )
     pascal = scene.lubricant.viscosity * speed / film
     readme = README.format(
@@ -128,7 +140,7 @@ def write_pad_case(
             speed=abs(scene.motion.speed) / speed,
             pressure=pressure_difference(scene) / (pascal * reynolds_number),
             stepped=stepped,
-            inclined=inclined,
+            settles=card.settles,
             tolerance=request.tolerance,
             scheme=request.scheme,
             processes=request.processes,
@@ -136,7 +148,7 @@ def write_pad_case(
         )
         write_files(place, files)
 
-    write_flow(directory, fill, card, card.criteria, dialect, readme=readme, run=run)
+    write_flow(directory, fill, card, card.criteria, dialect, readme=readme, run=run, settles=card.settles)
 
 
 def _steepest(mesh: Plane) -> float:

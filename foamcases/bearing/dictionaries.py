@@ -11,6 +11,7 @@ from roughfilm.foamcases.openfoam.dictionaries import (
     schemes,
     solution,
 )
+from roughfilm.foamcases.openfoam.settling import functions
 
 SIDES = (
     Patch(name="inlet", entries={"type": "patch"}),
@@ -21,12 +22,6 @@ SIDES = (
     Patch(name="front", entries={"type": "empty"}),
 )
 """The patches of a pad at x-, x+, y-, y+, z-, z+; the sliding wall enters at "inlet" and leaves at "outlet"."""
-
-PRESSURE_ALONE = 0.01
-"""Residual of pressure over the tolerance at which a run ends where the residual of velocity across is round-off.
-
-That of the velocity along the film then meets the tolerance too.
-"""
 
 STEPS = Patch(name="steps", entries={"type": "wall"})
 """The patch of the faces towards cells that a wall with steps leaves out."""
@@ -39,7 +34,7 @@ def pad_dictionaries(
     speed: float,
     pressure: float,
     stepped: bool,
-    inclined: bool,
+    settles: bool,
     tolerance: float,
     scheme: str,
     processes: int,
@@ -57,7 +52,7 @@ def pad_dictionaries(
     speed : speed of the sliding wall, in that unit.
     pressure : pressure at the inlet above that at the outlet, over density times the square of that unit.
     stepped : whether the mesh has the patch ``STEPS``.
-    inclined : whether the velocity across the film is above round-off; if not, the pressure alone ends the iteration.
+    settles : whether the run ends when its mean velocity no longer changes; otherwise residuals end it.
     tolerance : the initial residual at which the iteration stops.
     scheme : a key of ``ADVECTION``.
     processes : the number of parts along the film into which a parallel run divides the mesh.
@@ -75,8 +70,9 @@ def pad_dictionaries(
         "back": {"type": "empty"},
         "front": {"type": "empty"},
     }
+    kind, entries = control(ITERATIONS)
     return {
-        "system/controlDict": control(ITERATIONS),
+        "system/controlDict": (kind, {**entries, "functions": functions(dialect)} if settles else entries),
         "system/fvSchemes": schemes(scheme),
         "system/fvSolution": solution(
             dialect=dialect,
@@ -85,7 +81,7 @@ def pad_dictionaries(
             relaxation=relaxation,
             coarsest=20,
             velocity_gain=0.01,
-            controlled={"p": tolerance, "U": tolerance} if inclined else {"p": PRESSURE_ALONE * tolerance},
+            controlled={} if settles else None,
         ),
         "system/decomposeParDict": (
             "dictionary",

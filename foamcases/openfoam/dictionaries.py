@@ -23,6 +23,9 @@ ITERATIONS = 5000
 LINEAR_TOLERANCE = 1e-5
 """Residual at which a linear solver stops, over the tolerance of the flow."""
 
+MOST_SWEEPS = 100
+"""Largest number of iterations of one solution for the pressure: on flat cells its residual ends at round-off."""
+
 ROUND_OFF = 1e-15
 """Least residual that a linear solver can reach."""
 
@@ -285,6 +288,7 @@ def solution(
                     "smoother": "DICGaussSeidel",
                     "tolerance": tolerance * linear,
                     "relTol": 0.1,
+                    "maxIter": MOST_SWEEPS,
                     "nCellsInCoarsestLevel": coarsest,
                 },
                 "U": {

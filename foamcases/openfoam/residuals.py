@@ -5,8 +5,21 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
+from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import Outcome
 from roughfilm.contact.foundation.reading.regular import opened
+
+MAX_ASPECT = 1000.0
+"""Length of a cell over its thickness above which the velocity across the film is not judged.
+
+Pressure over a cell's length is then so much larger than over its thickness that its round-off moves this velocity. On
+cells 4000 long the residual of that velocity ends at 2e-7, and grows with the square of their length.
+"""
+
+ROUND_OFF = 1e-15
+"""Round-off of the residual of the pressure on cells as long as thick."""
 
 PATIENCE = 500
 """Number of iterations in which the residual must halve at least once; otherwise the run is stopped.
@@ -17,6 +30,9 @@ at Re = 1e-6 to 5000 and d+ = 1e-6 to 5, the residual never took more than 225 i
 
 FIELDS = ("Ux", "Uy", "Uz", "p")
 """Names of the fields that simpleFoam solves for."""
+
+PLANE = ("Ux", "Uy", "p")
+"""Those of a plane flow."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +52,26 @@ class Judged:
 
 
 _SOLVED = re.compile(rb"Solving for (Ux|Uy|Uz|p), Initial residual = ([^,\s]+),")
+
+
+def judged_fields(fields: tuple[str, ...], along: Array, across: Array) -> tuple[str, ...]:
+    """The fields whose residuals are judged in a film: all but the velocity across it if cells are flat.
+
+    Parameters
+    ----------
+    fields : the fields that are not constant, of which the pressure is the last and the velocity across the one before.
+    along, across : lengths of cells along the film and across it, in one unit.
+    """
+    return (*fields[:-2], fields[-1]) if along.max() > MAX_ASPECT * across.min() else fields
+
+
+def flat_slack(along: Array, across: Array, tolerance: float) -> float:
+    """The residual over the tolerance at which a flow of flat cells ends whose mean velocity has settled.
+
+    The pressure, whose mean is a small difference of its peaks, settles after the velocity: it is a tenth where the
+    round-off of its residual, about ``ROUND_OFF`` times the square of a cell's length over its thickness, is smaller.
+    """
+    return float(np.clip(ROUND_OFF * (along.max() / across.min()) ** 2 / tolerance, 0.1, 1.0))
 
 
 class Residuals:

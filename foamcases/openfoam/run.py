@@ -13,6 +13,9 @@ from roughfilm.foamcases.openfoam.program import Ended, failure, succeed, succee
 from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
 from roughfilm.rom.ladder.model import Progress
 
+HARMLESS = ("High aspect ratio cells",)
+"""Words of remarks of checkMesh that are no faults: long cells of a thin film, whose error falls with their size."""
+
 REMEDIES = {
     Outcome.DIVERGED: "lower the Reynolds number or change the resolution",
     Outcome.UNSTEADY: "lower the Reynolds number, change the resolution or take the scheme upwind",
@@ -68,7 +71,7 @@ def check_mesh(
     Parameters
     ----------
     directory : the directory of the case.
-    tolerated : words of faults that are accepted.
+    tolerated : words of faults that are accepted besides those in ``HARMLESS``.
     remedy : the advice in the message of the error.
 
     Raises
@@ -87,9 +90,9 @@ def kept_mesh(
 
 
 def sound(mesh: Ended, *, tolerated: tuple[str, ...], remedy: str) -> Ended:
-    """The log of a mesh check; ConvergenceError if it reports a fault with none of the words in ``tolerated``."""
+    """The log of a mesh check; ConvergenceError if it has a fault without words in ``tolerated`` or ``HARMLESS``."""
     faults = [line for line in mesh.log.splitlines() if line.lstrip().startswith("***")]
-    accepted = bool(faults) and all(any(words in fault for words in tolerated) for fault in faults)
+    accepted = bool(faults) and all(any(words in fault for words in (*HARMLESS, *tolerated)) for fault in faults)
     if "Mesh OK" not in mesh.log and not accepted:
         raise failure(f"the mesh check found faults; {remedy}", mesh.log)
     return mesh

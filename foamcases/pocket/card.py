@@ -6,7 +6,7 @@ from pathlib import Path
 
 from roughfilm.foamcases.openfoam.iterate import Settled
 from roughfilm.foamcases.openfoam.relaxation import velocity_relaxation
-from roughfilm.foamcases.openfoam.residuals import FIELDS, Judged
+from roughfilm.foamcases.openfoam.residuals import FIELDS, PLANE, Judged
 from roughfilm.foamcases.openfoam.settling import settled_within
 
 LAYERS_PER_COLUMN = 1 / 5
@@ -37,7 +37,8 @@ class Card:
     rows : number of rows of cells across a cell in plan, those left out by symmetry among them; 0 for grooves.
     steps : mean lengths lx and ly of the columns of a cell in plan, in film thicknesses.
     mirrored : whether only the half y > 0 of a cell in plan is solved.
-    judged : the entries of ``FIELDS`` that are not constant.
+    judged : the entries of ``FIELDS`` that are neither constant nor round-off.
+    slack : residual over the tolerance at which a run may end whose mean velocity has settled.
     """
 
     columns: int
@@ -52,6 +53,7 @@ class Card:
     steps: tuple[float, float] = (1.0, 1.0)
     mirrored: bool = field(default=False, metadata={"may_be_zero": True})
     judged: tuple[str, ...] = FIELDS
+    slack: float = 1.0
 
     @property
     def relaxation(self) -> float:
@@ -65,12 +67,12 @@ class Card:
     @property
     def criteria(self) -> Judged:
         """The criteria of convergence."""
-        return Judged(fields=self.judged)
+        return Judged(fields=self.judged, slack=self.slack)
 
     @property
     def settles(self) -> bool:
-        """Whether the run ends by its mean velocity, since residuals of constant fields are round-off."""
-        return self.judged != FIELDS
+        """Whether the run ends by its mean velocity, since residuals of some fields are round-off."""
+        return self.judged != (FIELDS if self.rows else PLANE)
 
     def settled(self, directory: Path) -> Settled | None:
         """The test that ends the run of the case in a directory; None if residuals end it."""

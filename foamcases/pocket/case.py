@@ -2,13 +2,16 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.foamcases.conformal.orthogonal import orthogonal
 from roughfilm.foamcases.openfoam.block_mesh import in_space, write_block
 from roughfilm.foamcases.openfoam.dialect import Dialect
 from roughfilm.foamcases.openfoam.dictionaries import SIDES, write_dictionaries
 from roughfilm.foamcases.openfoam.one_flow import write_flow
-from roughfilm.foamcases.openfoam.residuals import Judged
+from roughfilm.foamcases.openfoam.residuals import PLANE, flat_slack, judged_fields
+from roughfilm.foamcases.openfoam.settling import functions
 from roughfilm.foamcases.pocket.card import Card, layers_of
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.pocket.scene import Pocket
@@ -62,6 +65,8 @@ def write_case(
         If the directory is not empty or cannot be written, or cells of the mesh fold.
     """
     vertices = vertices_of(scene, request.resolution)
+    along, across = np.diff(vertices[..., 0], axis=0), np.diff(vertices[..., 1], axis=1)
+    judged = judged_fields(PLANE, along, across)
     card = Card(
         columns=vertices.shape[0] - 1,
         layers=vertices.shape[1] - 1,
@@ -71,6 +76,8 @@ def write_case(
         scheme=request.scheme,
         processes=request.processes,
         dialect=dialect.name,
+        judged=judged,
+        slack=1.0 if judged == PLANE else flat_slack(along, across, request.tolerance),
     )
     readme = README.format(pressure=scene.pressure_unit * reynolds_number, speed=scene.speed, film=scene.geometry.film)
 
@@ -84,6 +91,7 @@ def write_case(
             scheme=request.scheme,
             parts=(request.processes, 1),
             relaxation=card.relaxation,
+            functions=functions(dialect) if card.settles else None,
         )
 
-    write_flow(directory, fill, card, Judged(), dialect, readme=readme, run=run)
+    write_flow(directory, fill, card, card.criteria, dialect, readme=readme, run=run, settles=card.settles)

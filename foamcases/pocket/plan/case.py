@@ -10,7 +10,7 @@ from roughfilm.foamcases.openfoam.dialect import Dialect
 from roughfilm.foamcases.openfoam.dictionaries import parts_of, write_dictionaries
 from roughfilm.foamcases.openfoam.memory import check_memory
 from roughfilm.foamcases.openfoam.one_flow import write_flow
-from roughfilm.foamcases.openfoam.residuals import FIELDS
+from roughfilm.foamcases.openfoam.residuals import FIELDS, judged_fields
 from roughfilm.foamcases.openfoam.settling import functions
 from roughfilm.foamcases.pocket.card import Card, layers_of
 from roughfilm.foamcases.pocket.plan.mesh.columns import sides_of
@@ -57,9 +57,10 @@ def sides(*, mirrored: bool) -> tuple[Patch, ...]:
 
 
 def judged_of(vertices: Array) -> tuple[str, ...]:
-    """The fields of a flow that are not constant: where the film does not change along y, nothing flows across."""
+    """The fields of a flow that are judged: where the film does not change along y, nothing flows across."""
     height = vertices[:, :, -1, 2] - vertices[:, :, 0, 2]
-    return FIELDS if (np.ptp(height, axis=1) > SAME_THICKNESS).any() else ("Ux", "Uz", "p")
+    moving = FIELDS if (np.ptp(height, axis=1) > SAME_THICKNESS).any() else ("Ux", "Uz", "p")
+    return judged_fields(moving, np.diff(vertices[..., 0], axis=0), np.diff(vertices[..., 2], axis=2))
 
 
 def write_case(

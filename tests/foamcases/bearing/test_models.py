@@ -135,3 +135,15 @@ def test_other_scenes_are_refused_with_a_reason(pad, changes, words):
         fits = model.applies(pad(**changes))
         assert not fits.applies
         assert words in fits.reason
+
+
+def test_a_pad_of_flat_cells_is_that_of_reynolds(pad):
+    """A wedge of 0.5 µm over 10 mm, whose cells are longer than 1000 times their thickness."""
+    sizes = {"film": 5e-7, "rise": 5e-7, "length": 1e-2}
+    scene = pad("1 m/s", shape="linear", lubricant=NO_RUPTURE, **{name: f"{size} m" for name, size in sizes.items()})
+    coarse, fine = (NAVIER_STOKES.solve(scene, Request(resolution=n)) for n in (60, 120))
+    names = "load_per_width", "friction_per_width"
+    extrapolated = values(fine, *names) + (values(fine, *names) - values(coarse, *names)) / 3
+    exact = linear_slider(**sizes, speed=1.0, viscosity=VISCOSITY)
+    assert extrapolated == pytest.approx([exact.load, exact.friction], rel=1e-3)
+    assert fine.numerics.details["mass_imbalance"] < 1e-6

@@ -225,3 +225,43 @@ def test_several_processes_find_what_one_finds(make_scene):
     assert np.abs(difference).max() < 1e-6 * scene.speed
     assert together.numerics.processes == 2
     assert together.numerics.cpu_s > 0
+
+
+def of_reynolds(film, *, length=1e-2, width=3e-3, depth=3e-7, viscosity=0.01, speed=1.0):
+    """Friction, Pa, and peak pressure, Pa, of a groove of an arc by the Reynolds equation, by quadrature here."""
+    radius = (width**2 / 4 + depth**2) / (2 * depth)
+    x = np.linspace(-length / 2, length / 2, 200_001)
+    bottom = np.sqrt(radius**2 - np.minimum(np.abs(x), width / 2) ** 2) - (radius - depth)
+    h = film + np.where(np.abs(x) < width / 2, bottom, 0.0)
+    flow = speed / 2 * np.trapezoid(h**-2, x) / np.trapezoid(h**-3, x)
+    gradient = 6 * viscosity * speed / h**2 - 12 * viscosity * flow / h**3
+    pressure = np.concatenate([[0.0], np.cumsum((gradient[1:] + gradient[:-1]) / 2 * np.diff(x))])
+    shear = 4 * viscosity * speed / h - 6 * viscosity * flow / h**2
+    return np.trapezoid(shear, x) / length, pressure.max()
+
+
+@pytest.mark.parametrize("film", [5e-7, 2e-6])
+def test_a_film_of_flat_cells_is_that_of_reynolds(film):
+    """Films of 1/20 000 and 1/5000 of their length, Re at most 0.2: neither inertia nor slope changes friction."""
+    scene = read_scene(
+        {
+            "name": "flat cells",
+            "kind": "pocket",
+            "geometry": {
+                "length": "10 mm",
+                "film": f"{film} m",
+                "profile": "cylindrical",
+                "width": "3 mm",
+                "depth": "0.3 um",
+            },
+            "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
+            "motion": {"speed": "1 m/s"},
+        }
+    )
+    coarse, fine = (NAVIER_STOKES.solve(scene, Request(resolution=n)) for n in (60, 120))
+    friction, peak = of_reynolds(film)
+    extrapolated = fine["friction_per_area"].value * 4 / 3 - coarse["friction_per_area"].value / 3
+    assert extrapolated == pytest.approx(friction, rel=2e-5)
+    unit = scene.pressure_unit / scene.plus_factor
+    assert fine["pressure_max_plus"].value * unit == pytest.approx(peak, rel=0.05)
+    assert abs(fine["load_per_area"].value) < 1e-5 * peak
