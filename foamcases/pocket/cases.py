@@ -48,5 +48,5 @@ def read(solver: Model[Pocket], scene: Pocket, directory: Path, run: Run) -> Res
         },
         numerics=numerics_of(card, run, unknowns=3 * card.columns * card.layers, details={}),
         provenance=provenance(scene, model=model, keeps=tuple(keeps), sources=solver.sources, openfoam=run.version),
-        warnings=(*ruptures(scene, lowest), *run.warnings),
+        warnings=(*ruptures(scene, solver, lowest), *run.warnings),
     )

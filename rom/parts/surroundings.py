@@ -38,25 +38,29 @@ class Surroundings(Part):
 
 
 def rupture_warnings(
-    lowest: float, limit: float, ambient: float, *, left_out_by: str, cause: str = "", remedy: str
+    lowest: float, limit: float, ambient: float, *, error: float = 0.0, left_out_by: str, cause: str = "", remedy: str
 ) -> tuple[str, ...]:
-    """A warning if the lowest pressure of a film is below the cavitation pressure.
+    """A warning if the lowest pressure of a film is, or within its error may be, below the cavitation pressure.
 
     Parameters
     ----------
     lowest : lowest pressure of the film above ambient, Pa.
     limit : cavitation pressure above ambient, Pa.
     ambient : ambient pressure, absolute, Pa.
+    error : error of the lowest pressure, Pa.
     left_out_by : the end of the sentence "the film ruptures, which ...", in words.
     cause : the drive that causes the pressure, such as ``under sliding``; "" if there is only one.
     remedy : what to do, in words.
     """
-    if lowest >= limit:
+    if lowest - error >= limit:
         return ()
+    certain = lowest + error < limit
+    size = "" if error == 0 or certain else f" ± {error / 1e3:.2g} kPa"
+    where, what = ("below", "ruptures") if certain else ("near", "may rupture or stay whole")
     return (
-        f"pressure: falls {cause + ' ' if cause else ''}to {_kilopascal(lowest)} from ambient, below the cavitation "
-        f"pressure of {_kilopascal(limit)} (ambient pressure {_kilopascal(ambient)}): the film ruptures, which "
-        f"{left_out_by}; {remedy}",
+        f"pressure: falls {cause + ' ' if cause else ''}to {_kilopascal(lowest)}{size} from ambient, {where} the "
+        f"cavitation pressure of {_kilopascal(limit)} (ambient pressure {_kilopascal(ambient)}): the film {what}, "
+        f"which {left_out_by}; {remedy}",
     )
 
 

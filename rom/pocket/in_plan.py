@@ -65,7 +65,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             *column_warnings(scene, request.resolution),
             *steep_warnings(scene),
             *inertia_warnings(scene, change=finest.change_of_pressure(number)),
-            *ruptures(scene, finest.pressure_range(number)[0] - on_wall.edge_mean),
+            *ruptures(scene, solver, finest.pressure_range(number)[0] - on_wall.edge_mean),
             *([] if len(levels) > 1 else [NO_COARSER_GRID]),
         ),
     )

@@ -53,7 +53,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         warnings.append(f"residual {residual:.1e} at {order} nodes on a piece misses the tolerance {tolerance:.1e}")
     flow = film_pressure(gap, film, rule, q, scene.reynolds_number if Effect.INERTIA in keeps else 0.0)
     shear = film_flow.sliding_wall_shear(film.h, q)
-    warnings += ruptures(scene, flow.lowest)
+    warnings += ruptures(scene, solver, flow.lowest)
     quantities = pocket_quantities(
         scene,
         load=flow.load,

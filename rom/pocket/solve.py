@@ -50,7 +50,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     slowest = thin_film.velocity(film, even_basis(MODES, BACKFLOW_LAYERS), state).min()
     length, pascal = film.faces[-1] - film.faces[0], scene.pressure_unit
     load = float((film.lengths * middle).sum() / length)
-    warnings += ruptures(scene, lowest) + cancellations(scene, load=load, lowest=lowest, highest=highest)
+    warnings += ruptures(scene, solver, lowest) + cancellations(scene, load=load, lowest=lowest, highest=highest)
     return Result(
         model=model,
         quantities=pocket_quantities(

@@ -64,5 +64,5 @@ def read_plan(solver: Model[Pocket], scene: Pocket, directory: Path, card: Card,
         provenance=provenance(
             scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources, openfoam=run.version
         ),
-        warnings=(*ruptures(scene, lowest - wall.edge_mean), *remarks, *run.warnings),
+        warnings=(*ruptures(scene, solver, lowest - wall.edge_mean), *remarks, *run.warnings),
     )

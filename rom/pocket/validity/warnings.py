@@ -1,8 +1,10 @@
 """Warnings where a pocket leaves the range of validity of a model."""
 
+from roughfilm.rom.advice.laws import table
 from roughfilm.rom.cavitation.shape import CELLS_PER_FEATURE
+from roughfilm.rom.ladder.model import Effect, Model
 from roughfilm.rom.parts.surroundings import rupture_warnings
-from roughfilm.rom.pocket.scene import Pocket
+from roughfilm.rom.pocket.scene import LAWS_IN_PLAN, Pocket
 from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, numbers
 
 MAX_LOAD_RATIO = 1.3
@@ -29,14 +31,47 @@ ratio, and by up to 16 % in 18 above it.
 """
 
 
-def ruptures(scene: Pocket, lowest: float) -> tuple[str, ...]:
-    """A warning if the film would cavitate; ``lowest`` is its lowest pressure above ambient over η u / Ly."""
+UNKNOWN_ERROR = 0.5
+"""Error of the lowest pressure over its size that is taken where no law gives it."""
+
+
+def error_of_lowest(scene: Pocket, model: Model[Pocket]) -> float | None:
+    """The error of the lowest pressure of a film that stays whole, by the laws, over its size; None if it is unknown.
+
+    It is 0 for the complete model, whose error is that of its mesh.
+    """
+    if model.complete and {Effect.INERTIA, Effect.SLOPE} <= model.keeps:
+        return 0.0
+    laws, own = LAWS_IN_PLAN if scene.in_plan else scene.kind, numbers(scene)
+    law = table().promise(laws, model.name).laws.get("pressure_min_plus")
+    known = law is not None and law.has_numbers(own) and law.beyond(own) is None
+    return law.error(own) if law is not None and known else None
+
+
+def ruptures(scene: Pocket, model: Model[Pocket], lowest: float) -> tuple[str, ...]:
+    """A warning if the film of a model falls below the cavitation pressure.
+
+    ``lowest`` is its lowest pressure above ambient over η u / Ly. The film may rupture if the error of the model
+    contains the cavitation pressure.
+    """
+    if lowest * scene.pressure_unit >= scene.cavitation_pressure:
+        return ()
+    error = error_of_lowest(scene, model)
+    return rupture_words(scene, lowest, abs(lowest) * (UNKNOWN_ERROR if error is None else error))
+
+
+def rupture_words(scene: Pocket, lowest: float, error: float) -> tuple[str, ...]:
+    """A sentence if the film ruptures, or may within the error of its lowest pressure; both over η u / Ly."""
+    unit, limit = scene.pressure_unit, scene.cavitation_pressure
+    certain = (lowest + error) * unit < limit
+    take = "reynolds_cavitating" if certain else "a model with more of inertia and slope"
     return rupture_warnings(
-        lowest * scene.pressure_unit,
-        scene.cavitation_pressure,
+        lowest * unit,
+        limit,
         scene.boundary.ambient_pressure,
+        error=error * unit,
         left_out_by="this model leaves out",
-        remedy="take reynolds_cavitating, lower the speed, or raise boundary.ambient_pressure",
+        remedy=f"take {take}, lower the speed, or raise boundary.ambient_pressure",
     )
 
 

@@ -158,7 +158,8 @@ def judgements(scene: Pocket) -> Iterator[Judgement]:
     plain, inertia, cavitation = ({name: result[name].value for name in truth} for result in results.values())
     changed = max(abs(inertia[name] - plain[name]) for name in PRESSURES)
     thickest = (1 + scene.depth) * scene.geometry.film / scene.geometry.length
-    for name, value in truth.items():
+    for name in CAVITATION_FACTORS:
+        value = truth[name]
         own, size = results["reynolds_cavitating"][name].uncertainty or 0.0, float(KIND.scale(truth, name))
         without = CAVITATION_FACTORS[name] * abs(cavitation[name] - plain[name]) + abs(inertia[name] - plain[name])
         within = INERTIA_FACTORS[name] * changed * (thickest if name == "friction_plus" else 1.0)

@@ -9,7 +9,7 @@ from roughfilm.ladder import find, models
 from roughfilm.rom.advice.advise import Verdict, advise, shortfall
 from roughfilm.rom.advice.expected import expected_errors
 from roughfilm.rom.ladder.kind import kind_of_name
-from roughfilm.rom.ladder.model import Effect, ladder
+from roughfilm.rom.ladder.model import Effect, best_for, ladder
 from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
 
 MODELS = tuple(model for model in ladder(rom, kind="pocket") if Effect.CAVITATION not in model.keeps)
@@ -111,3 +111,87 @@ def expected(scene):
     """The errors of ``reynolds`` by the fitted laws."""
     reynolds = find("pocket", "reynolds")
     return expected_errors(scene, reynolds, reynolds.solve(scene), models("pocket"))
+
+
+DEEP_CAP = -91.5
+"""Lowest pressure of ``deep_cap``, kPa above ambient: -15.45 ηu L/(100 h²), solved apart."""
+
+GROOVE = -5.93
+"""Lowest pressure of ``pocket.toml`` in units of p+, by finite elements."""
+
+
+def deep_cap(ambient):
+    """A cap over which inertia lowers the pressure; to first order in Re it falls to -112 kPa, without it to -70."""
+    return read_scene(
+        {
+            "name": "deep cap",
+            "kind": "pocket",
+            "geometry": {
+                "length": "1 mm",
+                "breadth": "1 mm",
+                "film": "30 um",
+                "dimples": [{"shape": "spherical", "width": "0.6 mm", "depth": "15 um"}],
+            },
+            "lubricant": {"viscosity": "0.01 Pa*s", "density": "1000 kg/m^3"},
+            "motion": {"reynolds_number": 160},
+            "boundary": {"ambient_pressure": f"{ambient} kPa"},
+        }
+    )
+
+
+def groove(limit):
+    """The groove of ``pocket.toml`` with a cavitation pressure in units of p+; inertia raises its lowest pressure."""
+    scene = load_scene(SCENES / "pocket.toml")
+    ambient = -limit * scene.pressure_unit / scene.plus_factor
+    return load_scene(SCENES / "pocket.toml", [f"boundary.ambient_pressure={ambient} Pa"])
+
+
+STAYS_WHOLE = {"deep cap": deep_cap(101.325), "groove": groove(1.35 * GROOVE)}
+RUPTURES = {"deep cap": deep_cap(80), "groove": groove(0.8 * GROOVE)}
+MAY_RUPTURE = {"deep cap": deep_cap(-DEEP_CAP), "groove": groove(GROOVE)}
+
+
+def omitted(scene, quantity="pressure_min_plus"):
+    return {model.name: kind_of_name("pocket").omitted(scene, model, quantity) for model in models("pocket")}
+
+
+@pytest.mark.parametrize("scene", STAYS_WHOLE.values(), ids=STAYS_WHOLE)
+def test_the_best_model_decides_that_a_film_stays_whole(scene):
+    found = omitted(scene)
+    cavitating = found.pop("reynolds_cavitating")
+    assert not any(found.values())
+    own, best = (find("pocket", name).solve(scene) for name in ("reynolds_cavitating", "film_slope"))
+    lowest, true = (one["pressure_min_plus"].value for one in (own, best))
+    assert cavitating.part >= abs(lowest - true) / abs(true)
+    assert best_for(scene, [find("pocket", name) for name in ("reynolds_cavitating", "film")]).name == "film"
+
+
+def test_the_lowest_pressure_of_a_film_that_stays_whole_is_that_of_full_inertia():
+    scene = deep_cap(101.325)
+    found = advise(scene, models("pocket"), quantity="pressure_min_plus", within=0.05)
+    assert found.chosen.model == "film_slope"
+    lowest = found.result["pressure_min_plus"].value * scene.pressure_unit / scene.plus_factor
+    assert lowest == pytest.approx(1e3 * DEEP_CAP, rel=0.02)
+
+
+@pytest.mark.parametrize("scene", RUPTURES.values(), ids=RUPTURES)
+def test_a_film_that_ruptures_by_inertia_has_the_cavitation_pressure(scene):
+    found = omitted(scene)
+    cavitating = find("pocket", "reynolds_cavitating").solve(scene)["pressure_min_plus"].value
+    limit = scene.cavitation_pressure / scene.pressure_unit * scene.plus_factor
+    assert found.pop("reynolds_cavitating").part == pytest.approx(abs(cavitating - limit) / abs(cavitating), abs=0.01)
+    assert all("the film ruptures, which this model leaves out" in one.reason for one in found.values())
+
+
+@pytest.mark.parametrize("scene", MAY_RUPTURE.values(), ids=MAY_RUPTURE)
+def test_a_film_within_the_error_of_the_cavitation_pressure_may_rupture_or_not(scene):
+    found = omitted(scene)
+    found.pop("reynolds_cavitating")
+    assert all("the film may rupture or stay whole" in one.reason for one in found.values())
+    assert advise(scene, models("pocket"), quantity="load_plus", within=0.01).chosen is None
+
+
+def test_a_model_with_a_large_error_says_that_its_film_may_rupture():
+    (warning,) = warnings_of(find("pocket", "inertial_reynolds"), deep_cap(101.325))
+    assert "may rupture or stay whole" in warning
+    assert not warnings_of(find("pocket", "film_slope"), deep_cap(101.325))

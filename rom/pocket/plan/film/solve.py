@@ -233,7 +233,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             *promise_warnings(scene, solver.name),
             *steep_warnings(scene),
             *mode_warnings(film.flow.along, MODES),
-            *ruptures(scene, float(film.flow.pressure.min()) - on_wall.edge_mean),
+            *ruptures(scene, solver, float(film.flow.pressure.min()) - on_wall.edge_mean),
             *([LOOSE.format(MAX_KNOWN_RESIDUAL)] if loose else [] if uncertainties else [NO_COARSER_GRID]),
         ),
     )
