@@ -52,7 +52,7 @@ class Law:
     reach : smallest and largest value of each number in the scenes of the fit.
     scenes : number of scenes in the fit.
     spread : ratio of the bound to the median error.
-    within : names of numbers that are in no term, above whose range the law is not known.
+    within : names of further numbers that a scene must have; as of all in ``reach``, the law is not known above them.
     """
 
     terms: Sequence[Term]
@@ -92,9 +92,9 @@ class Law:
         """The name of a number outside the range of the fit on a side where the error may be larger, or None.
 
         Effects vanish as the numbers of a scene go to 0, so that this side is above the range, and below it if a
-        power is negative.
+        power is negative. A number of the fit in no term showed no effect within the range; above it none is known.
         """
-        for name in dict.fromkeys((*self.names, *self.within)):
+        for name in (one for one in dict.fromkeys((*self.names, *self.within, *self.reach)) if one in numbers):
             powers = [term.powers[name] for term in self.terms if name in term.powers] or [1.0]
             least, greatest = self.reach.get(name, (0.0, math.inf))
             above, below = numbers[name] > RANGE_FACTOR * greatest, numbers[name] < least / RANGE_FACTOR

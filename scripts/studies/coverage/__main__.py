@@ -29,6 +29,7 @@ from scripts.studies.coverage.judge import (
     FAR,
     GOAL,
     SHARE,
+    WIDE,
     AdviceScore,
     Coverage,
     Finding,
@@ -136,11 +137,13 @@ def figure(found: Sequence[Finding]) -> Figure:
 
 def table(rows: Sequence[Coverage]) -> Table:
     """Return the coverage as a printed table."""
-    shown = Table("kind", "model", "quantity", "promise", "kept", "goal", "misleading", "undecided", "stated/error")
+    shown = Table(
+        "kind", "model", "quantity", "promise", "kept", "goal", "misleading", "undecided", "stated/error", "wide"
+    )
     for one in rows:
         kept = f"{one.kept} of {one.judged}" + (f" ({one.share:.1%})" if one.judged else "")
         cells = (one.kind, one.model, one.quantity, one.promise, kept, one.verdict, str(one.misleading))
-        shown.add_row(*cells, str(one.undecided), f"{one.width:.2g}")
+        shown.add_row(*cells, str(one.undecided), f"{one.width:.2g}", f"{one.wide_share:.0%}")
     return shown
 
 
@@ -206,6 +209,7 @@ def command(
         advice_misses=advice_misses,
         goal=GOAL,
         far=FAR,
+        wide=WIDE,
         advice_goal=ADVICE_GOAL,
         provenance=circumstances(),
     )

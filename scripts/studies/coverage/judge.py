@@ -16,6 +16,12 @@ ADVICE_GOAL = 0.95
 FAR = 3.0
 """Ratio of an error to what was stated above which an answer without a warning misleads."""
 
+WIDE = 5.0
+"""Median of stated over true error above which what a model states about a quantity is too wide, a miss as well.
+
+A bound that normal errors keep in 95 of 100 cases is 2.9 times their median, and more than 5 times 30 of 100 of them.
+"""
+
 SHARE = 0.2
 """Largest uncertainty of a truth over the stated error at which a scene is judged in any case."""
 
@@ -60,6 +66,11 @@ class Finding:
     def kept(self) -> bool:
         """Whether the error is within what is stated."""
         return self.error <= self.stated
+
+    @property
+    def wide(self) -> bool:
+        """Whether what is stated is surely more than ``WIDE`` times the error."""
+        return self.stated > WIDE * (self.error + self.truth_uncertainty)
 
     @property
     def misleads(self) -> bool:
@@ -109,7 +120,7 @@ def findings(scenes: Sequence[Judged]) -> Iterator[Finding]:
 
 @dataclass(frozen=True, kw_only=True)
 class Coverage:
-    """The promises of one model on one quantity: how many were judged, kept, undecided and misleading.
+    """The promises of one model on one quantity: how many were judged, kept, undecided, misleading and wide.
 
     ``width`` is the median of the stated error over the error.
     """
@@ -122,7 +133,13 @@ class Coverage:
     kept: int
     undecided: int
     misleading: int
+    wide: int
     width: float
+
+    @property
+    def wide_share(self) -> float:
+        """Fraction of the judged answers whose stated error is more than ``WIDE`` times the error."""
+        return self.wide / self.judged if self.judged else float("nan")
 
     @property
     def share(self) -> float:
@@ -136,7 +153,7 @@ class Coverage:
             return "not judged"
         if self.misleading or self.share < GOAL[0]:
             return "short"
-        return "wide" if self.share > GOAL[1] and self.width > 10 else "met"
+        return "wide" if self.width > WIDE else "met"
 
 
 def coverage(found: Sequence[Finding]) -> list[Coverage]:
@@ -158,6 +175,7 @@ def coverage(found: Sequence[Finding]) -> list[Coverage]:
                 kept=sum(one.kept for one in decided),
                 undecided=len(group) - len(decided),
                 misleading=sum(one.misleads for one in group),
+                wide=sum(one.wide for one in decided),
                 width=median(ratios) if ratios else float("nan"),
             )
         )

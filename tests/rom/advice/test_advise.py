@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from places import SCENES
 
 from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
@@ -26,6 +27,7 @@ from roughfilm.rom.ladder.model import (
     of_kind,
 )
 from roughfilm.rom.ladder.result import Numerics, Result
+from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.words.headline import sureness
 from roughfilm.words.summary import summary
 
@@ -557,3 +559,20 @@ def test_a_result_outside_the_range_of_its_model_has_no_error_and_says_so_first(
     both = {name: find("pocket", name).solve(scene) for name in ("reynolds", "film_slope")}
     judged = with_measured_errors(scene, models("pocket"), both)
     assert not any(one.expected_error for one in judged.values())
+
+
+def test_a_number_of_the_fit_in_no_term_still_limits_the_range():
+    """A law in which Re has no power was fitted up to Re = 290; nothing shows that it holds at Re = 400."""
+    fitted = law(0.01, reach={"depth": (0.1, 2.0), "reynolds_number": (0.001, 290.0)}, depth=1.0)
+    assert fitted.beyond({"depth": 1.0, "reynolds_number": 300.0}) is None
+    assert fitted.beyond({"depth": 1.0, "reynolds_number": 400.0}) == "reynolds_number"
+    assert fitted.beyond({"depth": 1.0, "reynolds_number": 1e-6}) is None
+    assert fitted.beyond({"depth": 1.0}) is None
+
+
+@pytest.mark.parametrize("model", ["film", "film_slope"])
+def test_a_groove_beyond_the_fitted_reynolds_numbers_has_no_expected_error(model):
+    scene = load_scene(SCENES / "pocket.toml", ["motion.reynolds_number=400"])
+    result = with_errors(find("pocket", model).solve(scene), scene, find("pocket", model), models("pocket"))
+    assert not result.expected_error.keys() & {"load_plus", "friction_plus"}
+    assert any("Re = 400 is outside the fitted range" in warning for warning in result.warnings)

@@ -6,6 +6,7 @@ The stored truths are lines of the file that ``python -m scripts.studies.coverag
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from roughfilm.rom.ladder.scene import scene_entries
@@ -82,6 +83,16 @@ def test_bars_that_are_too_wide_are_named():
     assert coverage([finding(0.01) for _ in range(50)])[0].verdict == "wide"
     assert coverage([finding(0.5) for _ in range(50)])[0].verdict == "met"
     assert coverage([finding(0.5)] * 95 + [finding(1.5)] * 5)[0].verdict == "met"
+
+
+def test_normal_errors_within_a_bar_for_95_of_100_are_not_too_wide():
+    """The median of |e| is 0.674 σ and the bar 1.96 σ; |e| is below a fifth of it in 30.5 of 100 cases."""
+    errors = np.abs(np.random.default_rng(0).normal(size=4000)) / 1.96
+    (row,) = coverage([finding(error) for error in errors])
+    assert (row.verdict, row.width) == ("met", pytest.approx(1.96 / 0.674, rel=0.05))
+    assert row.wide_share == pytest.approx(0.305, abs=0.03)
+    (twice,) = coverage([finding(error / 2) for error in errors])
+    assert twice.verdict == "wide"
 
 
 def test_an_expected_error_is_relative_and_contains_the_uncertainty():
