@@ -18,7 +18,7 @@ from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.result import Field, Numerics, Result, SolverRun, with_uncertainties
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
-from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
+from roughfilm.rom.rough_gap.quantities import gap_quantities, known_uncertainties
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.validity import cautions, ruptures
 
@@ -151,7 +151,7 @@ def read(solver: Model[RoughGap], scene: RoughGap, directory: Path, run: GapRun)
     return Result(
         model=model,
         quantities=with_uncertainties(
-            gap_quantities(scene, walls, factors) | reynolds, {} if inertial else coefficients(errors)
+            gap_quantities(scene, walls, factors) | reynolds, {} if inertial else known_uncertainties(errors, walls)
         ),
         fields={
             "gap": Field(values=walls.gap, unit="m"),

@@ -13,6 +13,7 @@ from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.parts.laminar import pressure_turbulence, shear_turbulence
 from roughfilm.rom.parts.surface_geometry import replaced_by
 from roughfilm.rom.rough_gap.scene import RoughGap
+from roughfilm.rom.rough_gap.walls import TOUCHING
 
 MIN_FLOW = 1e-4
 """Flow over that through a smooth gap below which it is negligible."""
@@ -107,6 +108,12 @@ def omitted(scene: RoughGap, _model: Any, quantity: str) -> Omission | None:
     return rupture_omitted(scene, quantity)
 
 
+def outside_laws(_scene: RoughGap, result: Result, quantity: str) -> str:
+    """The reason for which the laws of friction do not hold where the walls touch; empty if they do."""
+    contact = result.quantities.get("contact_area")
+    return TOUCHING if quantity == "friction" and contact is not None and contact.value > 0 else ""
+
+
 KIND = Kind(
     name="rough_gap",
     scene=RoughGap,
@@ -142,6 +149,7 @@ KIND = Kind(
     excluded="cavitation, heat and deformation by the pressure of the liquid",
     omitted=omitted,
     outside=outside,
+    outside_laws=outside_laws,
     replaces={
         "geometry.surface": lambda surface: (*replaced_by(surface), "amplitude", "wavelength"),
         "flow.pressure_gradient": ("reynolds_number",),

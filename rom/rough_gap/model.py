@@ -13,7 +13,7 @@ from roughfilm.rom.ladder.model import About, Applicability, Effect, Model
 from roughfilm.rom.ladder.result import NO_COARSER_GRID, Field, with_uncertainties
 from roughfilm.rom.rough_gap.flow.factors import RoughGapFactors
 from roughfilm.rom.rough_gap.flow.range_of_validity import change_by_lost_waves
-from roughfilm.rom.rough_gap.quantities import coefficients, gap_quantities
+from roughfilm.rom.rough_gap.quantities import gap_quantities, known_uncertainties
 from roughfilm.rom.rough_gap.scene import RoughGap
 from roughfilm.rom.rough_gap.validity import cautions, lowest_under_sliding, ruptures
 from roughfilm.rom.rough_gap.walls import Walls
@@ -51,9 +51,8 @@ def work(task: Task, *, find: Callable[[Walls, float], GapFlow], slope: bool) ->
     if walls.slides:
         warnings += ruptures(scene, lowest_under_sliding(scene, solution.suction), "under sliding")
     if solution.uncertainty is not None:
-        uncertainties = coefficients(
-            _with_lost_waves(solution.factors, solution.uncertainty, scene, walls, slope=slope)
-        )
+        lost = _with_lost_waves(solution.factors, solution.uncertainty, scene, walls, slope=slope)
+        uncertainties = known_uncertainties(lost, walls)
         if not np.isfinite(solution.uncertainty.pressure).all():
             warnings.append(NO_COARSER_GRID)
     return Answer(

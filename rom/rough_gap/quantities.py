@@ -16,6 +16,17 @@ def coefficients(factors: RoughGapFactors) -> dict[str, float]:
     return {**a, "B1": float(factors.shear[0]), "B2": float(factors.shear[1]), "friction": factors.friction}
 
 
+def known_uncertainties(uncertainty: RoughGapFactors, walls: Walls) -> dict[str, float]:
+    """The uncertainties by the names of their quantities, without that of friction where the walls touch.
+
+    The gap goes to 0 at the rim of a contact, and the shear across it without limit: friction does not converge.
+    """
+    found = coefficients(uncertainty)
+    if walls.touch:
+        found.pop("friction", None)
+    return found
+
+
 def gap_quantities(scene: RoughGap, walls: Walls, factors: RoughGapFactors) -> dict[str, Quantity]:
     """The quantities of a rough gap from its factors over those of a smooth gap with the thickness of the mean gap.
 

@@ -11,7 +11,7 @@ from roughfilm.rom.rough_gap.flow.range_of_validity import (
     change_by_roughness,
 )
 from roughfilm.rom.rough_gap.scene import RoughGap
-from roughfilm.rom.rough_gap.walls import Walls
+from roughfilm.rom.rough_gap.walls import TOUCHING, Walls
 
 MAX_OMITTED = 0.01
 """Largest relative change of the flow by an omitted effect of the walls without a warning."""
@@ -46,8 +46,8 @@ def too_rough(walls: Walls) -> tuple[str, ...]:
 def cautions(scene: RoughGap, walls: Walls) -> tuple[str, ...]:
     """The warnings for all models of a scene on these walls."""
     warnings = []
-    if walls.slides and (walls.gap == 0).any():
-        warnings.append("friction does not converge where the walls touch: it grows as the grid is refined")
+    if walls.slides and walls.touch:
+        warnings.append(f"{TOUCHING}, and its error is unknown")
     rough = [scene.geometry, *([scene.geometry.upper] if scene.geometry.upper else [])]
     for wall in rough:
         warnings += wall.warnings()

@@ -7,6 +7,9 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 
+TOUCHING = "friction does not converge where the walls touch: it grows as the grid is refined"
+"""The reason for which friction has no known error."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Walls:
@@ -44,6 +47,11 @@ class Walls:
     def slides(self) -> bool:
         """Whether the upper wall is flat, so that the flow is steady while it slides."""
         return bool(np.ptp(self.upper) == 0)
+
+    @property
+    def touch(self) -> bool:
+        """Whether the walls are in contact somewhere."""
+        return bool((self.gap == 0).any())
 
     def closed_below(self, smallest: float) -> Self:
         """The walls with contact wherever the gap is smaller than ``smallest``, m."""

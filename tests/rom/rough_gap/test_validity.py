@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from roughfilm.ladder import find, models
+from roughfilm.rom.advice.expected import with_errors
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.rough_gap.flow.corrected import slope_corrected
 from roughfilm.rom.rough_gap.flow.exact import sinusoidal_ridge_flow
@@ -88,3 +90,17 @@ def test_no_model_of_a_gap_holds_beyond_the_laminar_limit(model):
         found = KIND.outside(fast, model, None)
         assert len(found) == len(words)
         assert all(word in one for word, one in zip(words, found, strict=True))
+
+
+@pytest.mark.parametrize("name", ["homogenized", "slope_corrected"])
+def test_friction_between_walls_that_touch_has_no_error(name):
+    """The mean of 1/h diverges where a gap closes; below a hundredth of the mean gap it counts as contact."""
+    model, touching, open_gap = find("rough_gap", name), gap(0.995, 40.0), gap(0.5, 40.0)
+    coarse, fine = (model.solve(touching, Request(resolution=n)) for n in (32, 128))
+    assert fine["friction"].value > 1.1 * coarse["friction"].value
+    assert fine["friction"].uncertainty is None
+    assert fine["A22"].uncertainty is not None
+    for scene, known in ((touching, False), (open_gap, True)):
+        result = with_errors(model.solve(scene), scene, model, models("rough_gap"))
+        assert ("friction" in result.expected_error) is known
+        assert any("friction does not converge" in warning for warning in result.warnings) is not known
