@@ -6,10 +6,10 @@ from dataclasses import dataclass, field, replace
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
 from roughfilm.rom.advice.laws import RESOLVING, Law, Numbers, Step, Table, on_grid
-from roughfilm.rom.advice.stated import BY_ITS_RUN, BY_LAWS, StatedError
+from roughfilm.rom.advice.stated import BY_CORRECTION, BY_ITS_RUN, BY_LAWS, StatedError
 from roughfilm.rom.ladder.kind import Kind, Omission, Scene
 from roughfilm.rom.ladder.model import Model, best_for, find
-from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.ladder.result import BOUND, Result
 
 MAX_COST_OF_BEST = 0.01
 """Largest ratio of the cost of a check to that of the best model at its default resolution."""
@@ -192,6 +192,15 @@ class AdviceTask:
         size = min(self.kind.scale_of(result, self.quantity) for result in (one, other))
         return math.copysign(over(abs(change), size), change)
 
+    def corrects(self, model: Model) -> bool:
+        """Whether the results of a model bound its error in the quantity by the correction that it makes."""
+        return self.quantity in self.kind.bounded(self.scene, model)
+
+    def correction(self, result: Result) -> float | None:
+        """The bound of the error of the model in a result, over the size of the quantity; None if it has none."""
+        bound = result.numerics.details.get(f"{BOUND}{self.quantity}")
+        return None if bound is None else over(bound, self.kind.scale_of(result, self.quantity))
+
     def uncertainty(self, result: Result) -> float | None:
         """The numerical uncertainty of the quantity in a result over its size; None if it is unknown."""
         uncertainty = result[self.quantity].uncertainty
@@ -332,7 +341,8 @@ def a_posteriori(task: AdviceTask, model: Model, resolution: int) -> Estimate | 
     runs = runs_of_check(task, model, resolution)
     if len(runs) == 2:
         return _from_above(task, model, resolution, *runs[1])
-    return _from_itself(task, model, resolution) if runs else None
+    own = _from_correction if task.corrects(model) else _from_itself
+    return own(task, model, resolution) if runs else None
 
 
 def runs_of_check(task: AdviceTask, model: Model, resolution: int) -> tuple[tuple[Model, int], ...]:
@@ -343,6 +353,8 @@ def runs_of_check(task: AdviceTask, model: Model, resolution: int) -> tuple[tupl
     leaves out. Of another one without a next model, as the laws have none for the scene, it does not contain that.
     """
     above = task.next(model)
+    if task.corrects(model):
+        return ((model, resolution),)
     if above is None:
         checks = task.states_left_out(model) if task.has_grid_law_alone(model) else task.is_best(model)
         return ((model, resolution),) if checks and not model.outside else ()
@@ -426,6 +438,14 @@ def _from_itself(task: AdviceTask, model: Model, resolution: int) -> Estimate | 
     if error is None:
         return None
     return Estimate(error=error, reasons=(f"run at resolution {resolution}",), decides=True, source=BY_ITS_RUN)
+
+
+def _from_correction(task: AdviceTask, model: Model, resolution: int) -> Estimate | None:
+    own = _run(task, model, resolution)
+    error = None if own is None else task.correction(own)
+    if error is None:
+        return None
+    return Estimate(error=error, reasons=(f"run at resolution {resolution}",), source=BY_CORRECTION)
 
 
 def _from_above(task: AdviceTask, model: Model, resolution: int, above: Model, finer: int) -> Estimate | None:

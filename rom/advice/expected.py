@@ -8,7 +8,7 @@ from itertools import chain
 from roughfilm.contact.foundation.timing import claimed_costs, one_time
 from roughfilm.rom.advice.estimates import AdviceTask, a_priori
 from roughfilm.rom.advice.laws import lawful, table
-from roughfilm.rom.advice.stated import BY_LAWS, ENTRY, StatedError, entries_of_errors, stated_errors
+from roughfilm.rom.advice.stated import BY_CORRECTION, BY_LAWS, ENTRY, StatedError, entries_of_errors, stated_errors
 from roughfilm.rom.ladder.kind import Kind, Scene, kind_of_scene
 from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.request import Request
@@ -104,6 +104,9 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
         own = task.uncertainty(result) if quantity in result.quantities else None
         estimate = a_priori(task, model, result.numerics.resolution, own)
         if estimate is not None and estimate.sure:
+            bound = task.correction(result) if quantity in result.quantities else None
+            if bound is not None and bound < estimate.error:
+                estimate = replace(estimate, error=bound, source=BY_CORRECTION)
             stated = estimate.stated(omitted)
             stated = replace(stated, error=max(stated.error, own or 0.0))
             errors |= {quantity: stated} if math.isfinite(stated.error) else {}

@@ -14,6 +14,9 @@ BY_LAWS = "expected by the laws"
 BY_ITS_RUN = "its own uncertainty"
 """Source of the error of the most complete model, which is the uncertainty of its own run."""
 
+BY_CORRECTION = "estimated from its own correction"
+"""Source of the error of a model that corrects a simpler one, by the size of the correction."""
+
 MAX_STATED_ERROR = 1.0
 """Largest relative error by the laws that is printed as a number; a larger one says nothing about the value."""
 

@@ -71,6 +71,11 @@ def within_range(_scene: Any, _model: Any, _result: Result | None) -> tuple[str,
     return ()
 
 
+def nothing_bounded(_scene: Any, _model: Any) -> frozenset[str]:
+    """Return no quantities, for kinds none of whose results bounds the error of its model."""
+    return frozenset()
+
+
 def nothing_absent(_scene: Any) -> frozenset[str]:
     """Return no effects, for kinds whose models keep no effect that one of their scenes lacks."""
     return frozenset()
@@ -187,6 +192,8 @@ class Kind:
         not count, such as one that no model of the kind includes; None if it is zero or unknown.
     missing : missing(scene, model), the relative size of the effects that a model leaves out in a scene, where no model
         keeps them all: the best model for the scene misses least.
+    bounded : bounded(scene, model), the quantities whose error by the model its results bound themselves: as the detail
+        ``BOUND`` with the name of the quantity, in its unit.
     outside_laws : outside_laws(scene, result, quantity), the reason for which a result shows that the error laws of a
         quantity do not hold; empty if it does not.
     outside : outside(scene, model, result), one sentence for each way in which a scene is outside the range of a model,
@@ -225,6 +232,7 @@ class Kind:
     absent: Callable[[Any], frozenset[str]] = nothing_absent
     omitted: Callable[[Any, Any, str], Omission | None] = nothing_omitted
     missing: Callable[[Any, Any], float] = nothing_missing
+    bounded: Callable[[Any, Any], frozenset[str]] = nothing_bounded
     outside_laws: Callable[[Any, Any, str], str] = within_laws
     outside: Callable[[Any, Any, Result | None], Sequence[str]] = within_range
     replaces: Mapping[str, Sequence[str] | Callable[[Any], Sequence[str]]] = field(default_factory=dict)

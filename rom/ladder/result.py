@@ -67,6 +67,10 @@ class SolverRun:
     imbalance: float | None = None
 
 
+BOUND = "bound_of_"
+"""Beginning of the name of a detail that bounds the error of the model in the quantity with the rest of the name."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Numerics:
     """The numerics of a result: accuracy, cost and options of the computation.

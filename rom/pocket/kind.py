@@ -21,6 +21,7 @@ from roughfilm.rom.pocket.geometry import PROFILES, PocketGeometry
 from roughfilm.rom.pocket.plan.dimples import SHAPES
 from roughfilm.rom.pocket.plan.geometry import PlanGeometry
 from roughfilm.rom.pocket.scene import GROOVES, IN_PLAN, LAWS_IN_PLAN, TITLES, Pocket, in_plan
+from roughfilm.rom.pocket.validity.bounds import bounded
 from roughfilm.rom.pocket.validity.numbers import MIN_LOAD_SCALE, SYMBOLS, numbers
 
 COMPARED = ("load_plus", "friction_plus")
@@ -243,6 +244,7 @@ KIND = Kind(
     excluded="heat and deformation",
     omitted=omitted,
     missing=missing,
+    bounded=bounded,
     outside_laws=outside_laws,
     outside=outside,
     variants={LAWS_IN_PLAN: in_plan},
