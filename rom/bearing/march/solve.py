@@ -19,7 +19,7 @@ from roughfilm.rom.bearing.march.numbers import Observer
 from roughfilm.rom.bearing.march.rough_walls import walls_of
 from roughfilm.rom.bearing.march.series import Numerics, Series, run
 from roughfilm.rom.bearing.march.store import finish, keeper, kept
-from roughfilm.rom.bearing.march.summary import Summary, apart, lengths_of, path_unit, summary_of
+from roughfilm.rom.bearing.march.summary import FORCE, Summary, apart, lengths_of, path_unit, summary_of
 from roughfilm.rom.bearing.outside import ReynoldsNumbers, gas_as_liquid, turbulence
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.cavitation.solve import FIRST_COARSENING
@@ -356,18 +356,22 @@ def _uncertainties(duty: Duty, summary: Summary, fine: Series, others: _Compared
     """The uncertainty of each quantity, from a coarser grid, and from that with other steps too.
 
     The difference of two extremes may be small by chance; that of the paths on which they lie bounds it from below, and
-    the edge of a cavity is known to one cell along the film. The means of the flows balance each other, so that each
-    one has a part of the largest of their uncertainties at least.
+    the edge of a cavity is known to one cell along the film. A path that is given has no error. What an extreme may
+    miss between two steps is added. The means of the flows balance each other, so that each one has a part of the
+    largest of their uncertainties at least.
     """
     coarse, steps = (summary_of(duty, one).quantities for one in (others.coarse, others.steps))
     found = {
         name: GRID_SAFETY * others.of_grid * abs(one.value - coarse[name].value)
         + TIME_SAFETY * others.of_steps * abs(coarse[name].value - steps[name].value)
+        + summary.between.get(name, 0.0)
         for name, one in summary.quantities.items()
     }
     times = summary.first, summary.last
-    path = others.of_grid * apart(duty, fine, others.coarse, *times)
-    path += others.of_steps * apart(duty, others.coarse, others.steps, *times)
+    path = 0.0
+    if not duty.given_path or duty.pivoted is not None:
+        path = others.of_grid * apart(duty, fine, others.coarse, *times)
+        path += others.of_steps * apart(duty, others.coarse, others.steps, *times)
     unit = path_unit(duty, fine)
     least = dict.fromkeys(("eccentricity_max", "orbit_width", "orbit_height"), PATH_SAFETY * path)
     least |= {"film_min": PATH_SAFETY * path * unit, "cavitated_fraction_max": 1 / fine_cells}
@@ -376,6 +380,8 @@ def _uncertainties(duty: Duty, summary: Summary, fine: Series, others: _Compared
         least |= {f"{name}_mean": PATH_SAFETY * path * unit / length for name, length in lengths.items()}
     film, pressure = (summary.quantities[name].value for name in ("film_min", "pressure_max"))
     least["pressure_max"] = abs(pressure) * least["film_min"] / film
+    if FORCE in found:
+        least[FORCE] = summary.quantities[FORCE].value * least["film_min"] / film
     for name in FRICTIONS & summary.quantities.keys():
         least[name] = FRICTION_SAFETY * path * abs(summary.quantities[name].value)
     flows = [name for name in found if "_flow_" in name]

@@ -33,6 +33,9 @@ CONTACT_EXTREMES = {
     "contact_area_max": ("largest fraction of the area in contact", "contact_area", max),
 }
 """Titles, columns and extremes of walls that may touch."""
+FORCE = "film_force_max"
+"""The name of the largest force of the film on a given path."""
+
 HEATED_EXTREMES = {"temperature_max": ("highest temperature of the film", "temperature", max)}
 """The same of a film that has a temperature."""
 
@@ -64,6 +67,7 @@ class Summary:
     settled : whether the last two periods, or parts, agree; None where nothing repeats.
     quantities : extremes and means between these times.
     titles : their titles.
+    between : by how much an extreme may lie beyond its values at the steps, by its name.
     """
 
     first: float
@@ -72,18 +76,25 @@ class Summary:
     settled: bool | None
     quantities: Mapping[str, Quantity]
     titles: Mapping[str, str]
+    between: Mapping[str, float]
 
 
 def summary_of(duty: Duty, series: Series) -> Summary:
     """The answer of a march."""
     first, last, state, settled = _window(duty, series)
     inside = series.time >= first - 1e-9 * (last - first)
-    quantities, titles = {}, {}
+    quantities, titles, between = {}, {}, {}
     extremes = EXTREMES | (CONTACT_EXTREMES if "contact_load" in series.units else {})
     extremes |= HEATED_EXTREMES if "temperature" in series.units else {}
     for name, (title, column, extreme) in extremes.items():
         quantities[name] = Quantity(value=float(extreme(series[column][inside])), unit=series.units[column])
-        titles[name] = title
+        titles[name], between[name] = title, _between(series, series[column], quantities[name].value, first)
+    if duty.given_path:
+        force = np.abs(_film_force(duty, series))
+        unit = series.units["film_force_x" if duty.lobes else "film_force"]
+        quantities[FORCE] = Quantity(value=float(force[inside].max()), unit=unit)
+        titles[FORCE] = "largest force of the film"
+        between[FORCE] = _between(series, force, quantities[FORCE].value, first)
     means = {name: title for name, title in MEANS.items() if name in series.units}
     for name in series.units:
         place, _, kind = name.rpartition("_")
@@ -100,7 +111,30 @@ def summary_of(duty: Duty, series: Series) -> Summary:
             ("eccentricity_max", "largest eccentricity", float(np.hypot(x, y).max())),
         ):
             quantities[name], titles[name] = Quantity(value=value, unit="1"), title
-    return Summary(first=first, last=last, state=state, settled=settled, quantities=quantities, titles=titles)
+    return Summary(
+        first=first, last=last, state=state, settled=settled, quantities=quantities, titles=titles, between=between
+    )
+
+
+def _film_force(duty: Duty, series: Series) -> Array:
+    """The size of the force of the film on a shaft over the steps, or its force on a pad, N (N/m)."""
+    if duty.lobes:
+        return np.hypot(series["film_force_x"], series["film_force_y"])
+    return series["film_force"]
+
+
+def _between(series: Series, values: Array, extreme: float, first: float) -> float:
+    """By how much an extreme of values over the steps may lie beyond them, between the step where it is and the others.
+
+    It is the change to the step on the side on which values change less, carried on to the other side: little where
+    they are smooth, and what is missed of a jump, as where a cavity closes. 0 at the first and the last step.
+    """
+    time, at = series.time, int(np.flatnonzero((values == extreme) & (series.time >= first * (1 - 1e-9)))[0])
+    if not 0 < at < time.size - 1:
+        return 0.0
+    before, after = time[at] - time[at - 1], time[at + 1] - time[at]
+    rises = abs(values[at] - values[at - 1]) / before * after, abs(values[at + 1] - values[at]) / after * before
+    return float(min(rises))
 
 
 def mean(series: Series, name: str, first: float, last: float) -> float:
@@ -113,13 +147,26 @@ def mean(series: Series, name: str, first: float, last: float) -> float:
 
 
 def apart(duty: Duty, one: Series, other: Series, first: float, last: float) -> float:
-    """The largest difference of two paths between two times, over the clearance or over the first film."""
+    """The largest distance of a place of one of two paths from the other, over the clearance or over the first film.
+
+    It is that of the paths between two times as curves. When a wall is at a place does not count: orbits that differ in
+    their phase alone have the same extremes. No film thickness along one path differs by more from one along the other.
+    """
     times = np.linspace(first, last, SAMPLES)
-    first_path, second_path = (
-        np.array([np.interp(times, series.time, values) for values in _places(duty, series).T])
+    paths = [
+        np.stack([np.interp(times, series.time, values) for values in _places(duty, series).T], axis=1)
         for series in (one, other)
-    )
-    return float(np.hypot.reduce(np.abs(first_path - second_path), axis=0).max())
+    ]
+    return max(float(_from_curve(paths[n], paths[1 - n]).max()) for n in (0, 1))
+
+
+def _from_curve(places: Array, curve: Array) -> Array:
+    """The distances of places from a curve of straight pieces, both of shape (n, coordinates)."""
+    begin, along = curve[:-1], np.diff(curve, axis=0)
+    away = places[:, None] - begin
+    size = np.maximum((along**2).sum(axis=1), np.finfo(float).tiny)
+    part = np.clip((away * along).sum(axis=2) / size, 0.0, 1.0)
+    return np.asarray(np.sqrt(((away - part[..., None] * along) ** 2).sum(axis=2)).min(axis=1))
 
 
 def _places(duty: Duty, series: Series) -> Array:
@@ -153,7 +200,8 @@ def _window(duty: Duty, series: Series) -> tuple[float, float, str, bool | None]
             return end - period, end, "one period; nothing shows whether it repeats", None
         change = _difference(time, places, period)
         words = f"the last two periods differ by {100 * change:.2g} % of the {_scale(duty)}"
-        return end - period, end, words, change <= REPEATED
+        last = 1 if change <= REPEATED else max(2, int(LAST_PART * (end - begin) / period))  # a slower whirl, too
+        return end - last * period, end, words, change <= REPEATED
     if period is not None:
         return begin, end, "all of the time, less than one period", None
     if duty.curves or duty.approach:

@@ -1,10 +1,14 @@
 """The uncertainty of a march where marches on coarser grids stop."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.rom.bearing.march import solve
 from roughfilm.rom.bearing.march.solve import march_bearing
+from roughfilm.rom.bearing.march.summary import apart
 from roughfilm.rom.ladder.scene import read_scene
 
 CELLS = (16, 8)
@@ -93,3 +97,36 @@ def test_the_error_of_steps_counts_where_the_largest_step_limits_them(monkeypatc
     fine, coarse, longer = steps
     assert coarse == pytest.approx(fine)
     assert longer == pytest.approx(2 * fine)
+
+
+class Orbit(dict):
+    """The steps of an ellipse that is run through with a phase, at times that are its own."""
+
+    def __init__(self, size, phase, steps):
+        self.time = np.linspace(0, 1, steps)
+        angle = 2 * np.pi * self.time + phase
+        super().__init__(eccentricity_x=size * np.cos(angle), eccentricity_y=0.5 * size * np.sin(angle))
+
+
+def test_orbits_that_differ_in_their_phase_alone_have_the_same_extremes():
+    duty = SimpleNamespace(lobes=True)
+    assert apart(duty, Orbit(0.6, 0.0, 400), Orbit(0.6, 2.0, 300), 0.0, 1.0) < 1e-3
+    assert apart(duty, Orbit(0.6, 0.0, 400), Orbit(0.5, 2.0, 300), 0.0, 1.0) == pytest.approx(0.1, abs=1e-3)
+
+
+def test_a_given_path_states_the_uncertainty_of_its_force_and_none_of_its_own():
+    """Oscillating plates whose cavity closes at 5.3696 MPa, as the mass balance of its edge has it."""
+    time = np.linspace(0.0, 0.2, 81)
+    film = 10e-6 - 3.5e-6 * np.cos(10 * np.pi * time)
+    table = {"time": [f"{one!r} s" for one in time.tolist()], "film": [f"{one!r} m" for one in film.tolist()]}
+    entries = {
+        "name": "plates",
+        "kind": "bearing",
+        "geometry": {"shape": "parallel", "length": "20 mm"},
+        "lubricant": {"viscosity": "0.05 Pa*s", "cavitation_pressure": "-0.1 MPa"},
+        "motion": {"speed": "0 m/s", "over_time": table | {"period": "0.2 s"}},
+    }
+    found = march_bearing(read_scene(entries), end=0.2, cells=(32, 8)).quantities
+    assert found["film_min"].uncertainty <= 1e-9
+    for name, exact in (("pressure_max", 5.3696e6), ("film_force_max", 2 / 3 * 5.3696e6 * 0.02)):
+        assert abs(found[name].value - exact) <= found[name].uncertainty <= 0.02 * exact
