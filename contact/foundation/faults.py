@@ -140,6 +140,8 @@ def _fault(given: Mapping[str, Any], unknown: Callable[[Location], tuple[str, st
             text = f"got {got}; it must be at most {given['ctx']['le']}"
         case "tuple_type" if isinstance(given["input"], Mapping):
             text = f"got one table; write [[{given['loc'][-1]}]], in two brackets, above each of them"
+        case "tuple_type" if str(given["input"]).lstrip().startswith("["):
+            text = f'got {got}; it is no list of TOML, write numbers with units in quotes, such as ["1 s", "2 s"]'
         case "tuple_type":
             text = f"got {got}; write a list in brackets"
         case "too_short":

@@ -51,12 +51,20 @@ class BearingMotion(Part):
     speed : sliding speed, m/s; of a shaft, a sector or a washer also a rotational speed, "3000 rpm".
     approach : velocity V at which the walls approach each other, ∂h/∂t = -V, m/s, negative if they part; of a journal
         that of the shaft towards its narrowest place, ∂h/∂t = V cos φ with the angle φ from the widest place.
-    over_time : speed, load or path over time, for a march; steady films have the speed and the load of the scene.
+    over_time : speed, load or path over time, for a march; steady films have the speed and the load of the scene. With
+        a list of speeds, ``speed`` is the first of them by default.
     """
 
     speed: Speed
     approach: Speed = 0.0
     over_time: OverTime | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _first_speed(cls, entries: Any) -> Any:
+        columns = entries.get("over_time") if isinstance(entries, dict) and "speed" not in entries else None
+        speeds = columns.get("speed") if isinstance(columns, dict) else None
+        return entries | {"speed": speeds[0]} if isinstance(speeds, list | tuple) and speeds else entries
 
 
 class Inlet(Part):

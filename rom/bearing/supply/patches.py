@@ -114,7 +114,7 @@ def _patch(geometry: AnyShape, supply: Supply) -> Patch:
     if wide and supply.restricted:
         raise ValueError("pressure: got a restrictor or a flow for an infinitely wide film; give the film a width")
     if not wide and across is None:
-        raise ValueError("extent: is missing; the groove must end before the sides, give it one")
+        raise ValueError(f"extent: is missing; the {supply.kind} must end before the sides, give it one")
     radius = _middle(geometry, supply) if ring else 1.0
     shape_length = geometry.turn if isinstance(geometry, Ring) else length
     period = shape_length if _periodic(geometry) else 0.0

@@ -158,13 +158,13 @@ class Pocket(Supply):
     Attributes
     ----------
     length : length along the sliding, m.
-    extent : length across the sliding, m.
+    extent : length across the sliding, m; without it the whole width of an infinitely wide film.
     depth : depth below the wall around it, m.
     """
 
     kind: Literal["pocket"]
     length: Length
-    extent: Length
+    extent: Length | None = None
     depth: Length
 
     @property

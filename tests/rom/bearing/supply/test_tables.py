@@ -97,3 +97,33 @@ def test_a_patch_over_the_end_of_a_periodic_film_covers_both_of_its_parts():
     assert not patch.covers(x, 0.5 + 0 * x).any()
     assert patch.meets(Patch(x=(0.1, 0.3), y=(0.4, 0.5), period=1.0, slack=(1e-9, 1e-9)))
     assert not patch.meets(Patch(x=(0.3, 0.8), y=None, period=1.0, slack=(1e-9, 1e-9)))
+
+
+def test_a_pocket_covers_the_whole_width_of_an_infinitely_wide_film_and_needs_an_extent_in_another():
+    entries = {
+        "name": "pad",
+        "kind": "bearing",
+        "geometry": {"shape": "parallel", "length": "20 mm", "film": "20 um"},
+        "lubricant": {"viscosity": "20 mPa*s"},
+        "motion": {"speed": "1 m/s"},
+        "supply": [{"kind": "pocket", "x": "10 mm", "length": "3 mm", "depth": "1 mm", "pressure": "1 MPa"}],
+    }
+    read_scene(entries)
+    narrow = entries | {"geometry": entries["geometry"] | {"width": "20 mm"}}
+    with pytest.raises(InputError, match=r"extent: is missing; the pocket must end"):
+        read_scene(narrow)
+
+
+def test_the_first_of_the_speeds_over_time_is_that_of_steady_films():
+    over_time = {"time": ["0 s", "1 s"], "speed": ["2 m/s", "3 m/s"]}
+    entries = {
+        "name": "pad",
+        "kind": "bearing",
+        "geometry": {"shape": "linear", "length": "20 mm", "film": "20 um", "rise": "20 um"},
+        "lubricant": {"viscosity": "20 mPa*s"},
+        "motion": {"over_time": over_time},
+    }
+    assert read_scene(entries).motion.speed == 2.0
+    listed = {"time": "[0 s, 1 s]", "speed": over_time["speed"]}
+    with pytest.raises(InputError, match=r"it is no list of TOML, write numbers with units in quotes"):
+        read_scene(entries | {"motion": {"over_time": listed}})
