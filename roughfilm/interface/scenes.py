@@ -162,9 +162,11 @@ def _json(place: str, value: object) -> str:
     """The value as JSON; InputError that names the place if it is nothing that a scene holds."""
     try:
         return json.dumps(value, default=lambda number: number.tolist())
-    except (AttributeError, RecursionError, TypeError, ValueError):
+    except RecursionError:
         got = type(value).__name__
-        raise InputError(f"{place}: got {got}; give a number, a text with a unit, or a list of these") from None
+    except (AttributeError, TypeError, ValueError):
+        got = f"{value!r:.60}"
+    raise InputError(f"{place}: got {got}; give a number, a text with a unit, or a list of these")
 
 
 def _without_none(entries: dict[str, Any]) -> dict[str, Any]:

@@ -54,6 +54,11 @@ def row_path(directory: Path, identity: str) -> Path:
     return directory / ROWS / f"{identity}.json"
 
 
+def _digest(entries: Mapping[str, Any]) -> str:
+    """The SHA-256 digest of the entries of a row."""
+    return hashlib.sha256(json.dumps(entries, sort_keys=True).encode()).hexdigest()
+
+
 def store_row(row: Row, identity: str, directory: Path) -> None:
     """Write a row, completely or not at all; InputError if it cannot be written.
 
@@ -68,19 +73,21 @@ def store_row(row: Row, identity: str, directory: Path) -> None:
         "failure": None if row.failure is None else asdict(row.failure),
         "cpu_s": row.cpu_s,
     }
-    write_json(entries, row_path(directory, identity))
+    write_json(entries | {"digest": _digest(entries)}, row_path(directory, identity))
 
 
 def stored_row(identity: str, directory: Path) -> Row | None:
-    """The row of a window from its file; None if there is none, or the file is damaged."""
+    """The row of a window from its file; None if there is none, or the file is damaged or edited."""
     path = row_path(directory, identity)
     if not path.is_file():
         return None
     try:
-        entries = from_json(read_bytes(path, MAX_BYTES, "start again"), RowEntries)
+        text = read_bytes(path, MAX_BYTES, "start again")
+        entries = from_json(text, RowEntries)
     except (ValueError, InputError):
         return None
-    if entries.row_of != identity:
+    given = json.loads(text)
+    if entries.row_of != identity or given.pop("digest", "") != _digest(given):
         return None
     return Row(
         quantities={

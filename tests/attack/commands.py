@@ -200,6 +200,9 @@ COMMANDS = {
     "stability": Command(words=_words("stability cell --out map --resolution 64 --jobs 2 --json"), slow=True),
     "charts": Command(words=("charts", "--family", "cavitating slider", "--out", "charts", "--json")),
     "validate": Command(words=_words("validate --source fowell --source hertz --out numbers --json")),
+    "dynamics": Command(
+        words=_words("dynamics shaft.toml --out whirl --speeds 3000rpm,6000rpm,9000rpm --resolution 16 --json"),
+    ),
     "march": Command(words=("march.py",)),
 }
 """The commands by a name that says what they use."""

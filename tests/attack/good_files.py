@@ -22,7 +22,9 @@ from roughfilm.cli.openfoam_and_other_tools.export import _mesh
 from roughfilm.cli.surfaces.factors import _read_contacts
 from roughfilm.cli.upkeep.cache import _described
 from roughfilm.contact.foundation.cache import Entry
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.inputs import Inputs
+from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.mechanics import store as contacts
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.preparation.recipe import load_recipe
@@ -35,6 +37,9 @@ from roughfilm.foamcases.openfoam.dialect import COM
 from roughfilm.foamcases.openfoam.residuals import Judged, Residuals
 from roughfilm.foamcases.openfoam.settling import mean_velocity
 from roughfilm.foamcases.pocket.fields import read_channel
+from roughfilm.generated.manifest import read_manifest
+from roughfilm.generated.write import study_of_scene, write_cases
+from roughfilm.interface.motion import march
 from roughfilm.ladder import find, models
 from roughfilm.pages.sweep import study_of
 from roughfilm.rom.bearing.mixed import store as stribeck
@@ -51,7 +56,10 @@ from roughfilm.rom.seal.leakage.percolation import Side, Threshold
 from roughfilm.rom.seal.leakage.series import NUMBERS, LeakageSeries, Row, load_series, save_series, stored_series
 from roughfilm.rom.studies.study import load_study
 from roughfilm.rom.studies.table import Column, read_table, write_hdf5
+from roughfilm.sampling.quantities import Row as WindowRow
+from roughfilm.sampling.rows import store_row, stored_row
 
+SHAFT = SCENES / "unbalanced_rotor.toml"
 HEIGHTS = np.random.default_rng(7).normal(scale=1e-6, size=(12, 8))
 SPACING = (1e-6, 1e-6)
 INPUTS = Inputs(
@@ -219,6 +227,28 @@ def _stribeck(path: Path) -> None:
         for speed in (0.1, 0.2)
     ]
     stribeck.save_points(path, INPUTS, points)
+
+
+def _row(path: Path) -> None:
+    row = WindowRow(quantities={"Sq": Quantity(value=1.5e-6, unit="m", uncertainty=1e-8)}, cpu_s=0.1)
+    store_row(row, "0", path.parents[1])
+
+
+def _read_row(path: Path) -> Any:
+    """The row of a window, or the error by which it is computed again."""
+    row = stored_row("0", path.parents[1])
+    if row is None:
+        raise InputError(f"{path}: is no row of a window")
+    return row.quantities
+
+
+def _march(path: Path) -> Any:
+    """The least film of a march that begins, or goes on, in a file."""
+    return march(load_scene(SHAFT), 1e-4, steps=2, cells=(16, 8), uncertainty=False, file=path)["film_min"].tolist()
+
+
+def _manifest(path: Path) -> None:
+    write_cases(study_of_scene(load_scene(SCENES / "pocket.toml"), Request(resolution=30)), path.parent, COM)
 
 
 def _contacts(path: Path) -> None:
@@ -413,6 +443,9 @@ KINDS = {
         ),
         lambda path: mean_velocity(path.parents[3]).tobytes(),
     ),
+    "row of a window": GoodFile(_file("rows/0.json", _row), _read_row),
+    "manifest": GoodFile(_file("manifest.json", _manifest), lambda path: read_manifest(path.parent).digest),
+    "march": GoodFile(_file("march.h5", _march), _march),
     "answers of charts": GoodFile(_written("answers.json", json.dumps(ANSWERS)), known_answers),
 }
 
@@ -427,6 +460,4 @@ def _rows(path: Path) -> Any:
     try:
         return read_rows(path, DEPTHS, header="position (um), depth (um)")
     except ValueError as error:
-        from roughfilm.contact.foundation.errors import InputError
-
         raise InputError(f"{path}: {error}") from None
