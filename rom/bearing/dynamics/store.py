@@ -110,6 +110,8 @@ def known_points(path: Path, inputs: Inputs) -> tuple[DynamicPoint, ...]:
         wanted |= {f"spectrum/{name}": Numbers(shape=(*ROWS, len(RATIOS_OF_MEMORY))) for name in spectra}
         columns = content.take(wanted)
         outside = content.one("@outside", Json(kind=tuple[tuple[str, ...], ...]))
+        if len(outside) != len(columns["points/speed"]):
+            raise content.fault("@outside", "has another number of points")
     return tuple(
         DynamicPoint(
             **{name: columns[f"points/{name}"][row].item() for name in OPERATION},

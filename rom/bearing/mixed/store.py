@@ -116,6 +116,8 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
         numbers = (*NUMBERS, *(name for name in OF_SOME if name in content.names("points")))
         columns = content.take({f"points/{name}": Numbers(shape=ROWS, missing=name in FLASH) for name in numbers})
         outside = content.one("@outside", Json(kind=tuple[tuple[str, ...], ...]))
+        if len(outside) != len(columns["points/speed"]):
+            raise content.fault("@outside", "has another number of points")
         known = [f"uncertainty/{name}" for name in content.names("uncertainty")]
         uncertainties = content.take(
             {name: Numbers(shape=(len(columns["points/speed"]),), missing=True) for name in known}

@@ -4,9 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from forging import forge
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.foamcases.bearing.models import navier_stokes, stokes
 from roughfilm.interface.motion import march
 from roughfilm.ladder import models
@@ -15,6 +17,8 @@ from roughfilm.rom.advice.expected import with_errors
 from roughfilm.rom.bearing.dynamics.store import write_ross
 from roughfilm.rom.bearing.dynamics.sweep import dynamics
 from roughfilm.rom.bearing.effects.analysis import analyse_effects
+from roughfilm.rom.bearing.mixed import store
+from roughfilm.rom.bearing.mixed.curves import curve_inputs
 from roughfilm.rom.bearing.mixed.stribeck import stribeck
 from roughfilm.rom.bearing.outside import channel_outside, reynolds_numbers
 from roughfilm.rom.bearing.scene import Bearing
@@ -250,3 +254,14 @@ def test_stiffness_of_a_bearing_without_a_load_is_that_under_the_given_one():
         dynamics(bearing, [5.0], [500 / (0.1 * 0.06)], resolution=32)[0].points[0] for bearing in (with_load, without)
     )
     assert one.numbers == other.numbers
+
+
+def test_a_file_whose_sentences_are_not_those_of_its_points_is_refused(tmp_path):
+    bearing = scene({**PAD, "width": "80 mm"})
+    (curve,) = stribeck(bearing, [2.0, FAST], [5e4], resolution=16)
+    path, inputs = tmp_path / "stribeck.h5", curve_inputs(bearing, None, 16)
+    store.save_points(path, inputs, curve.points)
+    assert [one.outside for one in store.known_points(path, inputs)] == [one.outside for one in curve.points]
+    forge(path, lambda file: file.attrs.update(outside="[]"))
+    with pytest.raises(InputError, match="another number of points"):
+        store.known_points(path, inputs)
