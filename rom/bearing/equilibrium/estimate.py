@@ -19,7 +19,7 @@ CONTACT_FILM = 2.0
 CELLS = {True: (64, 256), False: (24, 96)}
 """Numbers of cells along a side, for an infinitely wide film (True) and for others; the second if the first fails."""
 
-CLEARLY = 1.5
+CLEARLY = 2.0
 """Load over the largest that films on the first grid carry, or the smallest over it, above which it is refused."""
 
 LOAD_TOLERANCE = 1e-4
