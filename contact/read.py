@@ -15,7 +15,7 @@ from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.foundation.writing.kinds import as_input
 from roughfilm.contact.surfaces.files import NPY_REMEDY, file_digest, read_surface
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
-from roughfilm.contact.surfaces.plausibility import implausible
+from roughfilm.contact.surfaces.plausibility import implausible, repeated_extreme
 from roughfilm.contact.surfaces.store import is_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
@@ -104,6 +104,7 @@ def read_height_map(
         source=surface.source,
         warnings=(
             *implausible(surface, file),
+            *repeated_extreme(surface, file),
             *(
                 periodicity_warnings(file, surface, otherwise, measured=not described and suffix != ".npy")
                 if periodic

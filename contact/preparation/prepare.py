@@ -15,13 +15,14 @@ from roughfilm.contact.preparation.filling import fill_invalid
 from roughfilm.contact.preparation.filters import l_filter, nesting_warnings, s_filter
 from roughfilm.contact.preparation.form import remove_form
 from roughfilm.contact.preparation.grid import next_power_of_two, resample
-from roughfilm.contact.preparation.outliers import cut_outliers
+from roughfilm.contact.preparation.outliers import Cut, cut_outliers
 from roughfilm.contact.preparation.recipe import Grid, Recipe, Sampling, recipe_entries
+from roughfilm.contact.preparation.removal import removal_warnings
 from roughfilm.contact.preparation.smoothing import smooth
 from roughfilm.contact.preparation.spikes import Spikes, find_spikes
 from roughfilm.contact.preparation.window import Window, best_window, cut_window
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
-from roughfilm.contact.surfaces.plausibility import implausible
+from roughfilm.contact.surfaces.plausibility import implausible, repeated_extreme
 from roughfilm.contact.surfaces.surface import MAX_POINTS, Surface
 
 MAX_WINDOW_PIXELS = 1e9
@@ -34,7 +35,7 @@ MAX_INVALID_FRACTION = 0.9
 """Fraction of invalid points above which a measurement is refused."""
 
 CUT_WARNING_FRACTION = 0.01
-"""Fraction of clipped points, and of points of spikes and rims, above which a warning is given."""
+"""Fraction of clipped points above which a warning is given."""
 
 MAX_FITS = 5
 """Largest number of fits of the form, each without the spikes that the fit before showed."""
@@ -121,8 +122,9 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
         raise InputError(f"invalid points: they are {100 * invalid:.0f} % of all; measure again")
     measured, spikes = _without_form(surface, recipe)
     _refuse_constant(measured, surface)
+    unfiltered = measured
     kept = measured.with_heights(measured.heights, invalid=measured.invalid | spikes.points)
-    trusted, cut = cut_outliers(kept, bins=recipe.outliers.bins, points=recipe.outliers.points)
+    trusted, cut = cut_outliers(kept, recipe.outliers.quantile)
     if recipe.s_filter is not None or recipe.l_filter is not None:
         measured = trusted = _scale_limited(trusted, recipe)
         _refuse_constant(trusted, surface)
@@ -145,9 +147,11 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
         filled=filled,
         record=record,
         warnings=(
+            *repeated_extreme(surface),
             *implausible(trusted),
             *nesting_warnings(surface, recipe.s_filter, recipe.l_filter),
-            *_outlier_warnings(record),
+            *removal_warnings(unfiltered, spikes),
+            *_clipping_warnings(cut, surface.heights.size),
         ),
     )
 
@@ -255,22 +259,15 @@ def _points(shape: tuple[int, int], grid: Grid) -> tuple[int, int]:
     return nx, ny
 
 
-def _outlier_warnings(record: Mapping[str, Any]) -> list[str]:
-    """The warnings about spikes, rims and clipped points."""
-    warnings = []
-    outliers, points = record["outliers"], record["invalid"]["measured"]
-    cut, spiked = outliers["above"] + outliers["below"], outliers["spikes"] + outliers["rims"]
-    if spiked > CUT_WARNING_FRACTION * points:
-        warnings.append(
-            f"{100 * spiked / points:.1f} % of the points were taken for spikes or rims of invalid regions, and are "
-            "filled in; look at the measurement, and take fewer: outliers.limit=8, or outliers.limit=0 to keep all"
-        )
-    if cut > CUT_WARNING_FRACTION * points:
-        warnings.append(
-            f"{100 * cut / points:.1f} % of the points were cut as outliers; take fewer: outliers.bins=100, or "
-            "outliers.points=0 to cut none"
-        )
-    return warnings
+def _clipping_warnings(cut: Cut, points: int) -> tuple[str, ...]:
+    """The warning about many clipped points."""
+    fraction = (cut.above + cut.below) / points
+    if fraction <= CUT_WARNING_FRACTION:
+        return ()
+    return (
+        f"{100 * fraction:.2g} % of the points were clipped, which removes summits that carry load; take a smaller "
+        "outliers.quantile, or 0 to clip none",
+    )
 
 
 def _cell_warnings(record: Mapping[str, Any]) -> list[str]:

@@ -5,9 +5,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, ValidationError, model_validator
+from pydantic import BeforeValidator, Field, ValidationError, model_validator
 
-from roughfilm.contact.foundation.entries import Coordinate, Length, LengthPair, Part
+from roughfilm.contact.foundation.entries import Coordinate, Length, LengthPair, Part, plain_number
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.faults import faults_of, in_lines, known_keys, unknown_key
 from roughfilm.contact.foundation.line_numbers import Location
@@ -19,27 +19,37 @@ from roughfilm.contact.preparation.grid import Method
 EXAMPLE_LINE = 'form = "quadratic"'
 """A correct line of a recipe, for messages."""
 
+MAX_QUANTILE = 0.1
+"""Largest fraction of the points that may be clipped at each end; a larger one leaves no surface."""
+
 Count = Annotated[int, Field(strict=True, ge=2, le=100_000)]
 
 
+def _listed(given: object) -> object:
+    """A single value as a list."""
+    return given if isinstance(given, list | tuple) else [given]
+
+
 class Reading(Part):
-    """Channel, pixel spacing (m) and unit of heights, where the file of the surface lacks them or is wrong."""
+    """Channel, pixel spacing (m) and unit of heights, where the file of the surface lacks them or is wrong.
+
+    ``invalid`` are heights that mark missing points, in the unit of the file.
+    """
 
     channel: str | None = None
     spacing: LengthPair | None = None
     height_unit: Annotated[str, Field(min_length=1, max_length=20)] | None = None
+    invalid: Annotated[tuple[Annotated[float, BeforeValidator(plain_number)], ...], BeforeValidator(_listed)] = ()
 
 
 class Outliers(Part):
-    """Limit of spikes and rims, number of histogram bins, and number of points in the outermost bins that are kept.
+    """Limit of spikes and rims, in spreads of the heights, and fraction of the points clipped at each end.
 
-    The limit is in spreads of the heights; 0 finds no spikes. With 0 points nothing is clipped.
+    With a limit of 0 no spikes are sought, with a quantile of 0 nothing is clipped.
     """
 
     limit: Annotated[float, Field(ge=0, le=1e6)] = 4.0
-
-    bins: Annotated[int, Field(strict=True, ge=1, le=1_000_000)] = 1000
-    points: Annotated[int, Field(strict=True, ge=0)] = 10
+    quantile: Annotated[float, Field(ge=0, le=MAX_QUANTILE)] = 0.0
 
 
 class Sampling(Part):
@@ -50,9 +60,9 @@ class Sampling(Part):
 
 
 class Grid(Part):
-    """Number of pixels along x and y, or the next powers of two, or the pixels of the measurement ("kept")."""
+    """Number of pixels along x and y, or the pixels of the measurement ("kept"), or the next powers of two."""
 
-    points: tuple[Count, Count] | Literal["powers of two", "kept"] = "powers of two"
+    points: tuple[Count, Count] | Literal["powers of two", "kept"] = "kept"
     method: Method = "linear"
 
 
@@ -105,8 +115,7 @@ class Recipe(Part):
 
 AS_IT_IS: Mapping[str, Any] = {
     "form": "none",
-    "outliers": {"limit": 0.0, "points": 0},
-    "grid": {"points": "kept"},
+    "outliers": {"limit": 0.0},
     "edges": {"direction": "none"},
     "smoothing": 1,
 }

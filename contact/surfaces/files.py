@@ -3,6 +3,7 @@
 import hashlib
 import math
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -30,6 +31,9 @@ CELL_BYTES = 100
 POINT_BYTES = 64
 """Peak memory for each point of a surface that is read, bytes."""
 
+SAME = 1e-9
+"""Relative difference up to which a height is one that marks missing points."""
+
 NPY_REMEDY = "save numbers of shape (nx, ny) with numpy.save"
 
 HEADER_EXAMPLE = "# spacing: 1.5 um, 1.5 um; heights: um"
@@ -44,6 +48,7 @@ def read_surface(
     channel: str | None = None,
     spacing: tuple[float, float] | None = None,
     height_unit: str | None = None,
+    invalid: Sequence[float] = (),
 ) -> Surface:
     """Read a surface from a file of any supported format.
 
@@ -57,6 +62,7 @@ def read_surface(
     channel : name of the channel, for instrument files with several.
     spacing : (dx, dy), m; replaces the spacing in the file. Not allowed for HDF5.
     height_unit : unit such as "um"; replaces the unit in the file. Default for NPY: m. Not allowed for HDF5.
+    invalid : heights that mark missing points, in the unit of the file. Not allowed for HDF5.
 
     Returns
     -------
@@ -73,7 +79,7 @@ def read_surface(
         raise InputError(f"{path}: is empty; export it again from the instrument")
     path = as_input(Path(path)).expanduser()
     if surface_store.is_surface(path):
-        if channel or spacing or height_unit:
+        if channel or spacing or height_unit or invalid:
             raise InputError(f"{path}: holds its own spacing and unit; leave out the recipe's table read")
         return surface_store.load_surface(path)
     suffix = path.suffix.lower()
@@ -82,11 +88,15 @@ def read_surface(
         measurement = read_instrument(path, channel)
     elif channel is not None:
         raise InputError(f"{path}: has no channels; leave out read.channel")
-    return _surface(path, measurement, spacing, height_unit)
+    return _surface(path, measurement, spacing, height_unit, invalid)
 
 
 def _surface(
-    path: Path, measurement: Measurement, spacing: tuple[float, float] | None, height_unit: str | None
+    path: Path,
+    measurement: Measurement,
+    spacing: tuple[float, float] | None,
+    height_unit: str | None,
+    invalid: Sequence[float],
 ) -> Surface:
     if min(measurement.heights.shape) < 2:
         nx, ny = measurement.heights.shape
@@ -107,6 +117,9 @@ def _surface(
         factor = to_si(f"1 {unit}", "m")
     except ValueError as error:
         raise InputError(f"{path}: heights: {error}") from None
+    missing = np.isnan(measurement.heights)
+    for value in invalid:
+        missing |= np.isclose(measurement.heights, value, rtol=SAME, atol=0)
     if np.isinf(measurement.heights).any():
         i, j = np.argwhere(np.isinf(measurement.heights))[0]
         raise InputError(f"{path}: the height at x {i}, y {j} is infinite; mark invalid points by NaN")
@@ -114,7 +127,7 @@ def _surface(
         return Surface(
             heights=measurement.heights * factor,
             spacing=spacing,
-            invalid=np.isnan(measurement.heights),
+            invalid=missing,
             source={
                 "file": path.name,
                 "sha256": file_digest(path),

@@ -8,8 +8,17 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.surfaces.surface import Surface
 
-SPACINGS = (1e-9, 1e-3)
+SPACINGS = (0.05e-9, 1e-3)
 """Least and largest plausible spacing of pixels, m."""
+
+ROUNDING = 1e-12
+"""Relative difference that is rounding, of a spacing from its limit, and of heights from their size."""
+
+SHARED = 10, 1e-3
+"""Least number and fraction of points that share one extreme height at which it may mark missing points."""
+
+MORE_THAN_OTHERS = 5
+"""Least ratio of that number to the largest number of points that share another height; rounded heights are below."""
 
 MAX_RMS_SLOPE = 3.0
 """Largest plausible rms slope."""
@@ -32,9 +41,9 @@ IN_RECIPE = "in the recipe of roughfilm surface"
 def implausible(surface: Surface, name: str | Path = "") -> tuple[str, ...]:
     """The warnings that a unit of a measured surface may be wrong; empty if none is, or if it is a synthetic surface.
 
-    Plausible are spacings of pixels of 1 nm to 1 mm, rms slopes below 3 and rms heights of 10⁻⁵ to 10³ pixels. The rms
-    slope is √(⟨(∂h/∂x)²⟩ + ⟨(∂h/∂y)²⟩), from differences of neighbouring valid points on up to 255 lines in each
-    direction, without the steepest 1 %. Nothing is altered.
+    Plausible are spacings of pixels of 0.05 nm to 1 mm, rms slopes below 3 and rms heights of 10⁻⁵ to 10³ pixels. The
+    rms slope is √(⟨(∂h/∂x)²⟩ + ⟨(∂h/∂y)²⟩), from differences of neighbouring valid points on up to 255 lines in each
+    direction, without the steepest 1 %. Heights that differ by rounding alone have no rms height. Nothing is altered.
 
     Parameters
     ----------
@@ -49,17 +58,48 @@ def implausible(surface: Surface, name: str | Path = "") -> tuple[str, ...]:
     return tuple(place + sentence for sentence in _sentences(surface))
 
 
+def repeated_extreme(surface: Surface, name: str | Path = "") -> tuple[str, ...]:
+    """The warning that one extreme height of a measured surface may mark missing points; empty if it does not seem so.
+
+    It is given where 10 points or more, and 0.1 % or more, share the lowest or the highest height to the last bit, five
+    times as many as share any other. Saturated points do so as well. Synthetic, prepared and constant surfaces have no
+    such warning.
+
+    Parameters
+    ----------
+    surface : heights as they were read.
+    name : file of the surface, which begins the sentence.
+    """
+    heights = surface.heights[surface.valid]
+    if _synthetic(surface) or "prepared_from" in surface.source or np.ptp(heights) == 0:
+        return ()
+    place = f"{name}: " if name else ""
+    found = []
+    for word, extreme in (("lowest", float(heights.min())), ("highest", float(heights.max()))):
+        count = int((heights == extreme).sum())
+        if count >= max(SHARED[0], SHARED[1] * heights.size):
+            others = np.unique(heights[heights != extreme], return_counts=True)[1]
+            if count >= MORE_THAN_OTHERS * others.max():
+                found.append(
+                    f"{place}{count} points ({100 * count / heights.size:.2g} %) share the {word} height, "
+                    f"{extreme:.6g} m, to the last bit; if it marks missing points, set read.invalid to it, in the unit of the file, "
+                    f"{IN_RECIPE}"
+                )
+    return tuple(found)
+
+
 def _sentences(surface: Surface) -> tuple[str, ...]:
     if _synthetic(surface):
         return ()
     least, most = SPACINGS
-    if not all(least <= step <= most for step in surface.spacing):
+    if not all(least * (1 - ROUNDING) <= step <= most * (1 + ROUNDING) for step in surface.spacing):
         pixel = " x ".join(f"{step:.3g}" for step in surface.spacing)
         return (
             f"the pixel spacing is {pixel} m, outside of the plausible {least:g} to {most:g} m; if the lateral unit of "
             f"the file is wrong, set read.spacing {IN_RECIPE}",
         )
-    rms = float(surface.heights[surface.valid].std())
+    heights = surface.heights[surface.valid]
+    rms = float(heights.std()) if np.ptp(heights) > ROUNDING * np.abs(heights).max() else 0.0
     relative, slope = rms / math.sqrt(math.prod(surface.spacing)), _rms_slope(surface)
     key = "read.spacing, or read.height_unit,"
     if rms > 0 and not RMS_HEIGHTS[0] <= rms <= RMS_HEIGHTS[1]:

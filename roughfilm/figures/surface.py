@@ -100,9 +100,10 @@ def bearing_curves(prepared: Prepared) -> str:
     for surface, label, colour, line in _both(prepared):
         ratio, height = bearing_curve(surface.heights[surface.valid])
         axes.plot(100 * ratio, (height - level) * 1e6, color=colour, label=label, linewidth=line)
-    for end in ("highest", "lowest"):
+    clipped = bool(prepared.surface.source["recipe"]["outliers"]["quantile"])
+    for end in ("highest", "lowest") if clipped else ():
         axes.axhline((prepared.record["outliers"][end] - level) * 1e6, color="black", linestyle=":", linewidth=1)
-    axes.set(xlabel="part of the surface above, % (dotted: cut)", ylabel="height, µm")
+    axes.set(xlabel="part of the surface above, %" + (" (dotted: clipped)" if clipped else ""), ylabel="height, µm")
     figure.legend(loc="outside upper center", ncols=2)
     return svg(figure)
 

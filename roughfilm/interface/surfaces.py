@@ -24,7 +24,7 @@ from roughfilm.contact.preparation import prepare as preparation
 from roughfilm.contact.preparation.recipe import AS_IT_IS
 from roughfilm.contact.registration import combine as combination
 from roughfilm.contact.surfaces import files
-from roughfilm.contact.surfaces.plausibility import implausible
+from roughfilm.contact.surfaces.plausibility import implausible, repeated_extreme
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, Surface
 from roughfilm.contact.synthetic.description import make, read_description
 from roughfilm.interface.cells import CellSet, checked_windows
@@ -85,6 +85,7 @@ def read_surface(
     spacing: float | Sequence[float] | None = None,
     channel: str | None = None,
     height_unit: str | None = None,
+    invalid: float | Sequence[float] = (),
 ) -> Surface:
     """Read a measured surface from a file, or generate the synthetic surface that a TOML file describes.
 
@@ -94,6 +95,7 @@ def read_surface(
     spacing : distance of neighbouring points, m, or a pair (dx, dy), if the file does not hold it.
     channel : name of the channel, if the file of an instrument holds several.
     height_unit : unit of the heights, such as "um", if the file does not hold it; m for NPY.
+    invalid : heights that mark missing points, such as -9999 or 0, in the unit of the file.
 
     Returns
     -------
@@ -110,8 +112,8 @@ def read_surface(
     Warns
     -----
     UserWarning
-        If a unit of the file may be wrong: pixels outside of 1 nm to 1 mm, an rms slope of 3 or more, or an rms height
-        outside of 10⁻⁵ to 10³ pixels.
+        If a unit of the file may be wrong: pixels outside of 0.05 nm to 1 mm, an rms slope of 3 or more, or an rms
+        height outside of 10⁻⁵ to 10³ pixels; if many points share one extreme height, which may mark missing points.
 
     Examples
     --------
@@ -123,16 +125,24 @@ def read_surface(
     if not isinstance(path, str | os.PathLike):
         raise InputError(f"path: got {type(path).__name__}; name a file; heights in an array need no reading")
     file = Path(path)
+    codes = _codes(invalid)
     if file.suffix.lower() == ".toml":
-        given = {"spacing": spacing, "channel": channel, "height_unit": height_unit}
+        given = {"spacing": spacing, "channel": channel, "height_unit": height_unit, "invalid": codes or None}
         for name in (name for name, value in given.items() if value is not None):
             raise InputError(f"{name}: got {given[name]!r}; a described surface is complete, leave it out")
         return make(read_description(file))
     pair = None if spacing is None else _pair(spacing)
-    surface = files.read_surface(file, channel=channel, spacing=pair, height_unit=height_unit)
-    for sentence in implausible(surface, file):
+    surface = files.read_surface(file, channel=channel, spacing=pair, height_unit=height_unit, invalid=codes)
+    for sentence in (*implausible(surface, file), *repeated_extreme(surface, file)):
         warnings.warn(sentence, UserWarning, stacklevel=2)
     return surface
+
+
+def _codes(invalid: float | Sequence[float]) -> tuple[float, ...]:
+    try:
+        return tuple(np.atleast_1d(np.asarray(invalid, dtype=float)).tolist())
+    except (TypeError, ValueError):
+        raise InputError(f"invalid: got {invalid!r:.60}; give a height, or a list of them") from None
 
 
 def prepare(surface: Surface, recipe: str | Path | Mapping[str, Any] | None = None) -> preparation.Prepared:

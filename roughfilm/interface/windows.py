@@ -109,11 +109,7 @@ def windows(
         if described and recipe is not None:
             raise InputError(f"recipe: {path} is described and periodic; leave the recipe out")
         name = path.name
-        given = (
-            path
-            if described
-            else files.read_surface(path, channel=read.channel, spacing=read.spacing, height_unit=read.height_unit)
-        )
+        given = path if described else files.read_surface(path, **dict(read))
     plan = planned(given, steps, count=count, size=size, sizes=sizes, name=name, progress=progress)
     with scratch_directory() as scratch:
         asked = Asked(gap=gap)

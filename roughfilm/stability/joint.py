@@ -8,7 +8,7 @@ from roughfilm.contact.surfaces.surface import Surface
 
 EDGES_ONLY = {
     "form": "none",
-    "outliers": {"limit": 0.0, "points": 0},
+    "outliers": {"limit": 0.0},
     "grid": {"points": "kept"},
     "edges": {"method": "blended"},
     "smoothing": 1,

@@ -20,7 +20,7 @@ def preparation_steps(prepared: Prepared) -> list[str]:
     steps = {
         f"form: {recipe['form']}": recipe["form"] != "none",
         f"spikes: {spiked}": recipe["outliers"]["limit"],
-        f"cut: {cut['above']} points above, {cut['below']} below": recipe["outliers"]["points"],
+        f"clipped: {cut['above']} points above, {cut['below']} below": recipe["outliers"]["quantile"],
         **{f"{name}: nesting index {index * 1e6:.4g} µm": True for name, index in _filters(record["scale"]).items()},
         f"filled: {guessed}": filled["points"],
         f"window: {window['pixels'][0]} x {window['pixels'][1]} pixels from {window['start']}, {size} µm": True,

@@ -128,8 +128,7 @@ def _shown(combined: Combined, names: tuple[str, str]) -> Iterator[Table | str]:
 
 
 def _read(file: Path, recipe: Recipe) -> Surface:
-    read = recipe.read
-    return read_surface(file, channel=read.channel, spacing=read.spacing, height_unit=read.height_unit)
+    return read_surface(file, **dict(recipe.read))
 
 
 def _shift(text: str | None, operation: Operation) -> Shift:

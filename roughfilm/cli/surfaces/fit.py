@@ -62,8 +62,7 @@ def command(
         advance(0.0, f"reading {file.name}")
         given: Surface | Path = file
         if file.suffix.lower() != ".toml":
-            read = steps.read
-            given = read_surface(file, channel=read.channel, spacing=read.spacing, height_unit=read.height_unit)
+            given = read_surface(file, **dict(steps.read))
         elif recipe or set_:
             raise InputError(f"{file}: is described and periodic; leave out --prepare and --set")
         refuse_unwritable((out, DESCRIPTION), (report, PAGE), overwrite=overwrite)

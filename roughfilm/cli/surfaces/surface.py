@@ -108,7 +108,7 @@ def _read(file: Path, recipe: Recipe) -> Surface:
         if read != Reading():
             raise InputError(f"{file}: holds its own spacing and unit; leave out the recipe's table read")
         return make(read_description(file))
-    return read_surface(file, channel=read.channel, spacing=read.spacing, height_unit=read.height_unit)
+    return read_surface(file, **dict(read))
 
 
 def _quantities(prepared: Prepared) -> dict[str, Quantity]:

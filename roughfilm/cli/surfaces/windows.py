@@ -16,7 +16,7 @@ from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.foundation.writing.kinds import PAGE, entries_from
 from roughfilm.contact.foundation.writing.scratch import scratch_directory
-from roughfilm.contact.preparation.recipe import Reading, Recipe, load_recipe
+from roughfilm.contact.preparation.recipe import Recipe, load_recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
@@ -206,8 +206,7 @@ def _given(file: Path, recipe: Recipe, *, described: bool) -> Surface | Path:
         if described:
             raise InputError(f"{file}: is described and periodic; leave out --prepare and --set")
         return file
-    read: Reading = recipe.read
-    return read_surface(file, channel=read.channel, spacing=read.spacing, height_unit=read.height_unit)
+    return read_surface(file, **dict(recipe.read))
 
 
 def _asked(plan: Plan, scene: Path | None, gap: str | None, sealing: bool, resolution: int, scratch: Path) -> Asked:

@@ -8,10 +8,11 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.parameters.spectrum import power_spectrum, texture_direction
-from roughfilm.contact.preparation.prepare import Prepared, prepare
+from roughfilm.contact.preparation.prepare import Prepared
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.files import read_surface
 from scripts.studies.lay.data import POINTS, FactorPair, box_of, compare, gap_at
+from scripts.studies.thesis_clipping import prepare_as_in_the_thesis
 
 OBLIQUE, STRIATED = "oblique_grooves.x3p", "ground_striated.x3p"
 
@@ -46,7 +47,7 @@ def prepared_surfaces(folder: Path | None, points: int = POINTS) -> dict[str, Pr
         return {}
     recipe = read_recipe({"grid": {"points": [points, points]}, "edges": {"method": "blended"}})
     files = [folder / name for name in (OBLIQUE, STRIATED)]
-    return {file.name: prepare(read_surface(file), recipe) for file in files if file.is_file()}
+    return {file.name: prepare_as_in_the_thesis(read_surface(file), recipe) for file in files if file.is_file()}
 
 
 def lay_of(prepared: Prepared) -> float:

@@ -9,7 +9,6 @@ import numpy as np
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.solid import composite_modulus
-from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
@@ -26,6 +25,7 @@ from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import make_directory
 from scripts.studies.paper_e.made import POINTS, TABLE, made, oblique, turned
 from scripts.studies.paper_e.windows import MILLED, STEEL
+from scripts.studies.thesis_clipping import prepare_as_in_the_thesis
 
 SCENE = Path(__file__).parents[2] / "examples" / "scenes" / "washer.toml"
 
@@ -114,10 +114,10 @@ def surfaces(folder: Path | None, points: int = POINTS) -> dict[str, Surface]:
     found = {name: made(name, points) for name in TABLE}
     recipe = {"grid": {"points": [points, points]}, "edges": {"method": "blended"}}
     if folder is not None and (folder / MILLED).is_file():
-        found["milled"] = prepare(read_surface(folder / MILLED), read_recipe(recipe)).surface
+        found["milled"] = prepare_as_in_the_thesis(read_surface(folder / MILLED), read_recipe(recipe)).surface
     if folder is not None and (folder / GROUND).is_file():
         cut = read_recipe(recipe | {"window": {"size": list(GROUND_WINDOW)}})
-        ground = turned(prepare(read_surface(folder / GROUND), cut).surface)
+        ground = turned(prepare_as_in_the_thesis(read_surface(folder / GROUND), cut).surface)
         factor = SCALED / float(ground.heights.std())
         dx, dy = ground.spacing
         found["ground"] = Surface(

@@ -10,12 +10,12 @@ import numpy as np
 
 from roughfilm.contact.mechanics.press import Press
 from roughfilm.contact.mechanics.solid import Solid, composite_modulus
-from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.homogenization.flow_factors import flow_factors
 from roughfilm.rom.seal.leakage.direct import direct_flow, direct_leakage
+from scripts.studies.thesis_clipping import prepare_as_in_the_thesis
 
 MILLED = "milled_NT1100.opd"
 STEEL = Solid(modulus=210e9, poisson=0.3, hardness=5e9)
@@ -122,7 +122,7 @@ def leaks(
     coarser: int = 1,
 ) -> list[Leak]:
     """Compute the leakage through one window at every load; each contact starts from the one before."""
-    prepared = prepare(measured, read_recipe(recipe(measured, window, start, resolution, coarser)))
+    prepared = prepare_as_in_the_thesis(measured, read_recipe(recipe(measured, window, start, resolution, coarser)))
     surface = prepared.surface
     press = Press(surface.heights, surface.spacing, composite_modulus(STEEL), hardness=STEEL.hardness)
     mismatch = prepared.record["periodicity_mismatch"]
@@ -178,7 +178,9 @@ def in_a_row(measured: Surface, cell: Leak, direction: int, *, coarser: int = 2)
 
     ``coarser`` divides the nodes along each side.
     """
-    prepared = prepare(measured, read_recipe(recipe(measured, cell.window, cell.start, cell.resolution, coarser)))
+    prepared = prepare_as_in_the_thesis(
+        measured, read_recipe(recipe(measured, cell.window, cell.start, cell.resolution, coarser))
+    )
     surface = prepared.surface
     press = Press(surface.heights, surface.spacing, composite_modulus(STEEL), hardness=STEEL.hardness)
     gap = press.at(cell.load, tolerance=CONTACT_TOLERANCE).gap

@@ -9,7 +9,6 @@ import numpy as np
 
 from roughfilm.contact.parameters.heights import height_statistics
 from roughfilm.contact.parameters.roughness_parameters import parameters
-from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.surface import Surface
@@ -17,6 +16,7 @@ from roughfilm.contact.synthetic.distribution import rms_slope, with_skewness
 from roughfilm.contact.synthetic.gaussian import gaussian
 from roughfilm.contact.synthetic.plateau_honed import plateau_honed
 from roughfilm.contact.synthetic.self_affine import self_affine
+from scripts.studies.thesis_clipping import prepare_as_in_the_thesis
 
 SIDE = 42e-6
 """Side of the surfaces, as in the source, m."""
@@ -146,7 +146,7 @@ def measured_surfaces(folder: Path | None, points: int = POINTS, names: Sequence
     made = []
     for number, file in enumerate(folder / name for name in names):
         if file.is_file():
-            one = prepare(read_surface(file), recipe).surface
+            one = prepare_as_in_the_thesis(read_surface(file), recipe).surface
             part = SIDE / max(one.size)
             shrunk = Surface(heights=one.heights, spacing=(one.spacing[0] * part, one.spacing[1] * part), periodic=True)
             made.append(Made(family=file.stem, seed=number, surface=scaled(shrunk, MEASURED_AVERAGE)))

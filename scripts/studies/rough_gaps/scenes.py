@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.rom.ladder.scene import read_scene
 from roughfilm.rom.rough_gap.scene import RoughGap
+from scripts.studies.thesis_clipping import prepare_as_in_the_thesis
 
 MEAN_GAP = 10e-6
 """Mean gap, m; only ratios to it matter."""
@@ -117,7 +117,7 @@ def window_of(measured: Surface, size: Sequence[float], points: Sequence[int]) -
         "grid": {"points": [*points]},
         "edges": {"method": "blended"},
     }
-    return prepare(measured, read_recipe(recipe)).surface
+    return prepare_as_in_the_thesis(measured, read_recipe(recipe)).surface
 
 
 def peak_over_rms(surface: Surface) -> float:

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import Edges, Grid, Recipe
 from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
@@ -16,6 +15,7 @@ from roughfilm.ladder import find
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
+from scripts.studies.thesis_clipping import prepare_as_in_the_thesis
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 SURFACE = "ground_striated.x3p"
@@ -174,7 +174,7 @@ def measured(surfaces: Path | None, directory: Path, name: str = SURFACE, points
     if source is None or not source.is_file():
         return None
     recipe = Recipe(grid=Grid(points=(points, points)), edges=Edges(method="blended"))
-    cell = prepare(read_surface(source), recipe).surface
+    cell = prepare_as_in_the_thesis(read_surface(source), recipe).surface
     target = directory / "cell.h5"
     save_surface(cell, target)
     return target

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from roughfilm.contact.preparation.prepare import level
 from roughfilm.contact.preparation.recipe import read_recipe
 from roughfilm.contact.surfaces.files import file_digest, read_surface
 from roughfilm.contact.windows.places import independent_windows
@@ -19,6 +20,7 @@ from roughfilm.fitting.run import side_of_windows
 from roughfilm.rom.ladder.provenance import imported_code
 from roughfilm.sampling.plan import Group, planned
 from scripts.studies.study import kept
+from scripts.studies.thesis_clipping import clipped
 
 SURFACES: Mapping[str, Mapping[str, Any]] = {
     "milled_NT1100.opd": {},
@@ -119,9 +121,10 @@ def examined(file: Path, area: float, keep: Path | None, advance: Callable[[str]
 def _examine(file: Path, area: float, advance: Callable[[str], None]) -> Examined:
     surface = read_surface(file, **SURFACES[file.name])
     side = side_of_windows(surface, WINDOWS)
+    grid = {"grid": {"points": [POINTS, POINTS]}}
     plan = planned(
-        surface,
-        read_recipe({"grid": {"points": [POINTS, POINTS]}}),
+        clipped(level(surface, read_recipe(grid)).trusted),
+        read_recipe({**grid, "form": "none", "outliers": {"limit": 0}}),
         count=WINDOWS,
         size=side,
         sizes=[side],

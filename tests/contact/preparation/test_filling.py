@@ -46,3 +46,18 @@ def test_without_invalid_points_nothing_happens():
     filled, residual = fill_invalid(given)
     assert filled is given
     assert residual == 0
+
+
+@pytest.mark.parametrize("shape", [(150, 150), (149, 211)])
+def test_a_wide_hole_is_filled_in_few_iterations(shape, monkeypatch):
+    """Nine tenths missing on one side, from a corner of a harmonic polynomial."""
+    monkeypatch.setattr("roughfilm.contact.preparation.filling.MAX_ITERATIONS", 60)
+    x, y = np.meshgrid(*(np.arange(n) * 1e-6 for n in shape), indexing="ij")
+    heights = x**2 - y**2 + 3 * x * y
+    invalid = np.zeros(shape, bool)
+    invalid[4:-4, 4:-4] = True
+    filled, residual = fill_invalid(
+        Surface(heights=np.where(invalid, 0, heights), spacing=(1e-6, 1e-6), invalid=invalid)
+    )
+    assert residual <= 1e-9
+    assert np.abs(filled.heights - heights).max() < 1e-6 * np.ptp(heights)

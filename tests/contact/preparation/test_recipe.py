@@ -16,8 +16,7 @@ channel = "Raw"
 spacing = ["1.5 um", "2 um"]
 height_unit = "nm"
 [outliers]
-bins = 500
-points = 20
+quantile = 0.002
 [window]
 size = ["0.8 mm", "600 um"]
 start = ["0 um", "10 um"]
@@ -47,11 +46,11 @@ def test_one_length_stands_for_both_directions(given):
     assert load_recipe(None, [f"read.spacing={given}"]).read.spacing == (1e-6, 1e-6)
 
 
-def test_without_a_file_the_thesis_numbers_hold():
+def test_without_a_file_no_height_is_clipped_and_the_pixels_are_kept():
     recipe = load_recipe()
     assert recipe == Recipe()
-    assert (recipe.outliers.bins, recipe.outliers.points, recipe.smoothing) == (1000, 10, 3)
-    assert recipe.grid.points == "powers of two"
+    assert (recipe.outliers.quantile, recipe.smoothing) == (0.0, 3)
+    assert recipe.grid.points == "kept"
 
 
 def test_the_recipe_beside_the_scenes_is_the_usual_one():
@@ -95,7 +94,8 @@ def test_an_l_filter_below_the_s_filter_is_refused():
         ("read.spacing=1um,2um,3um", r"^recipe\.read\.spacing: got '1um,2um,3um'; write one length or two, such as"),
         ("smoothing=0", r"^recipe\.smoothing: got 0; it must be at least 1"),
         ("smoothing=2.5", r"^recipe\.smoothing: got 2\.5; write a whole number"),
-        ("outliers.bins=many", r"^recipe\.outliers\.bins: got 'many'"),
+        ("outliers.quantile=many", r"^recipe\.outliers\.quantile: got 'many'"),
+        ("outliers.quantile=0.2", r"^recipe\.outliers\.quantile: got 0\.2; it must be at most 0\.1"),
         ("grid.points=[64]", r"^recipe\.grid\.points"),
         ("grid.points=[1, 64]", r"^recipe\.grid\.points"),
         ("grid.points=lots", r"^recipe\.grid\.points"),

@@ -156,7 +156,7 @@ def test_the_result_is_stored_with_the_sources_of_both(tmp_path):
 
 def test_the_recipe_is_taken_by_both():
     (before, after), *_ = worn_pair(976)
-    recipe = read_recipe({"form": "tilt", "outliers": {"limit": 0, "points": 0}, "s_filter": "6 um"})
+    recipe = read_recipe({"form": "tilt", "outliers": {"limit": 0}, "s_filter": "6 um"})
     plain, smooth = difference(before, after), difference(before, after, recipe)
     assert smooth.quantities["noise"].value < 0.7 * plain.quantities["noise"].value
 

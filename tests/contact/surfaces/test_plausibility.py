@@ -7,7 +7,7 @@ import pytest
 
 from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import Recipe
-from roughfilm.contact.surfaces.plausibility import implausible
+from roughfilm.contact.surfaces.plausibility import implausible, repeated_extreme
 from roughfilm.contact.surfaces.surface import Surface
 
 COUNT = 64
@@ -22,7 +22,7 @@ def rough(spacing=2.5e-6, rms=1e-6, **changes):
     return Surface(heights=rms * heights / heights.std(), spacing=(spacing, spacing), **changes)
 
 
-@pytest.mark.parametrize("spacing", [1.01e-9, 1e-7, 1e-5, 0.99e-3])
+@pytest.mark.parametrize("spacing", [0.05e-9, 1.01e-9, 1e-7, 1e-5, 0.99e-3])
 @pytest.mark.parametrize("relative", [1e-4, 1e-2, 1])
 def test_usual_surfaces_pass(spacing, relative):
     assert implausible(rough(spacing, max(relative * spacing, 2e-11))) == ()
@@ -31,7 +31,7 @@ def test_usual_surfaces_pass(spacing, relative):
 @pytest.mark.parametrize(
     ("spacing", "rms", "said"),
     [
-        (2.5, 1e-6, "the pixel spacing is 2.5 x 2.5 m, outside of the plausible 1e-09 to 0.001 m;.* set read.spacing "),
+        (2.5, 1e-6, "the pixel spacing is 2.5 x 2.5 m, outside of the plausible 5e-11 to 0.001 m;.* set read.spacing "),
         (2.5e-12, 1e-12, "the pixel spacing is 2.5e-12 x .* set read.spacing "),
         (2.5e-6, 1e-4, "the rms slope is .*, not below the plausible 3;.* set read.spacing, or read.height_unit, "),
         (2.5e-6, 1.0, "the rms slope is .* set read.height_unit in"),
@@ -74,3 +74,48 @@ def test_preparation_warns_and_alters_nothing():
     assert not any("plausible" in warning for warning in right.warnings)
     assert wrong.surface.spacing == pytest.approx([1e6 * step for step in right.surface.spacing])
     assert np.array_equal(wrong.surface.heights, right.surface.heights)
+
+
+@pytest.mark.parametrize("height", [3e-6, 0.1, -7e3, 0.0])
+def test_constant_heights_have_no_unit_to_doubt(height):
+    """The mean of 64 x 64 equal numbers differs from them by rounding, which is no rms height."""
+    for heights in (np.full((COUNT, COUNT), height), height * (1 + 1e-15 * rough().heights / 1e-6)):
+        given = Surface(heights=heights, spacing=(1e-6, 1e-6))
+        assert implausible(given) == ()
+        assert repeated_extreme(Surface(heights=np.full((COUNT, COUNT), height), spacing=(1e-6, 1e-6))) == ()
+
+
+@pytest.mark.parametrize(("code", "word"), [(-9.999e-3, "lowest"), (9.999e-3, "highest")])
+def test_many_points_that_share_an_extreme_height_are_said(code, word):
+    heights = rough().heights.copy()
+    heights[10:17, 20:23] = code
+    (sentence,) = repeated_extreme(Surface(heights=heights, spacing=(1e-6, 1e-6)), "s.npy")
+    assert sentence.startswith(f"s.npy: 21 points (0.51 %) share the {word} height, {code:g} m, to the last bit")
+    assert "read.invalid" in sentence
+
+
+def test_a_few_shared_extremes_are_no_code():
+    heights = rough().heights.copy()
+    heights[10:12, 20:22] = -1e-5
+    assert repeated_extreme(Surface(heights=heights, spacing=(1e-6, 1e-6))) == ()
+
+
+@pytest.mark.parametrize("steps", [20, 200])
+def test_rounded_heights_are_no_codes(steps):
+    """An instrument of few digits repeats every height."""
+    heights = np.round(rough().heights * steps / 1e-6) / steps * 1e-6
+    assert repeated_extreme(Surface(heights=heights, spacing=(1e-6, 1e-6))) == ()
+
+
+def test_made_and_prepared_surfaces_may_have_plateaus():
+    heights = np.minimum(rough().heights, 0.5e-6)
+    assert repeated_extreme(Surface(heights=heights, spacing=(1e-6, 1e-6)))
+    for source in ({"synthetic": {}}, {"prepared_from": {"file": "s.opd"}}):
+        assert repeated_extreme(Surface(heights=heights, spacing=(1e-6, 1e-6), source=source)) == ()
+
+
+def test_a_code_is_said_before_the_form_is_removed():
+    heights = rough().heights.copy()
+    heights[5:25, 20:40] = -9.999e-3
+    warnings = prepare(Surface(heights=heights, spacing=(2.5e-6, 2.5e-6)), Recipe()).warnings
+    assert sum("share the lowest height, -0.009999 m" in one for one in warnings) == 1

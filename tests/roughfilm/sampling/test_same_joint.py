@@ -9,7 +9,7 @@ from roughfilm.contact.windows.scatter import scatter
 from roughfilm.contact.windows.size_trend import growth_of, size_trend
 from roughfilm.sampling.plan import planned
 
-RECIPE = {"grid": {"points": "kept"}, "form": "none", "outliers": {"points": 0}, "smoothing": 1}
+RECIPE = {"grid": {"points": "kept"}, "form": "none", "smoothing": 1}
 
 
 def plan_of(edges, seed=1):

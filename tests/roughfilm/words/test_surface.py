@@ -9,7 +9,7 @@ from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.words.surface import preparation_steps, scale_limits
 
 GIVEN = Surface(heights=np.random.default_rng(871).normal(size=(64, 48)) * 1e-6, spacing=(1e-6, 1e-6))
-PLAIN = {"outliers": {"points": 0}, "grid": {"points": "kept"}}
+PLAIN = {"grid": {"points": "kept"}}
 NOT_COMPARABLE = "; values without nesting indices are not comparable between laboratories"
 
 

@@ -17,7 +17,7 @@ waviness = 2e-6 * np.sin(2 * np.pi * x / 500e-6)  # m
 roughness = 0.5e-6 * np.sin(2 * np.pi * (3 * x + 4 * y) / 125e-6)  # 25 µm long
 noise = 0.2e-6 * np.cos(2 * np.pi * 240 * x / size) * np.sin(2 * np.pi * (x + 200 * y) / size)
 surface = rf.Surface(heights=waviness + roughness + noise, spacing=(size / n, size / n), periodic=True)
-as_it_is = {"form": "none", "outliers": {"points": 0}, "grid": {"points": "kept"}, "edges": {"direction": "none"}}
+as_it_is = {"form": "none", "grid": {"points": "kept"}, "edges": {"direction": "none"}}
 cells = {
     index: rf.prepare(surface, {**as_it_is, "s_filter": "8 um", "l_filter": f"{index} um"}).surface
     for index in (50, 80, 125, 250, 500, 800, 1000, 2000)

@@ -20,7 +20,7 @@ x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n), indexing="ij")
 invalid = random.random((n, n)) < 0.02
 heights = np.where(invalid, 0, rough + 3e-6 * x + 1e-6 * y + 2e-6 * x**2)
 measured = rf.Surface(heights=heights, spacing=(2e-6, 2e-6), invalid=invalid)
-recipe = {"edges": {"direction": "both"}, "smoothing": 1, "outliers": {"points": 0}, "grid": {"points": "kept"}}
+recipe = {"edges": {"direction": "both"}, "smoothing": 1, "grid": {"points": "kept"}}
 prepared = rf.prepare(measured, recipe)
 cell, window = prepared.surface.heights, prepared.record["window"].values()
 part = tuple(slice(i, i + n) for i, n in zip(*window, strict=True))  # of the measurement

@@ -25,7 +25,7 @@ with tempfile.TemporaryDirectory() as folder:
     path = Path(folder) / "surface.toml"
     path.write_text(description)
     measured = rf.read_surface(path)
-recipe = {"form": "none", "outliers": {"points": 0}, "smoothing": 1}
+recipe = {"form": "none", "smoothing": 1}
 found = rf.windows(measured, size=0.25e-3, sizes=[0.17e-3, 0.125e-3], recipe=recipe)
 sq = found.quantities["Sq"]
 
