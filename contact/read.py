@@ -9,13 +9,13 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.foundation.reading.npy import read_header, read_numbers
 from roughfilm.contact.foundation.reading.regular import file_size
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.foundation.writing.kinds import as_input
-from roughfilm.contact.surfaces.files import NPY_REMEDY, file_digest, read_surface
+from roughfilm.contact.surfaces.files import read_measurement
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
 from roughfilm.contact.surfaces.plausibility import implausible, repeated_extreme
+from roughfilm.contact.surfaces.profile import Profile
 from roughfilm.contact.surfaces.store import is_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
@@ -81,20 +81,19 @@ def read_height_map(
     described = suffix == ".toml" or is_surface(file)
     if described and spacing is not None:
         raise InputError(f"spacing: {file} says its spacing itself; leave it out")
-    if suffix == ".npy" and not described:
-        if spacing is None:
-            raise InputError(f"spacing: {file} holds none; give that of its points, such as 1um")
-        profile = _read_profile(file)
-        if profile is not None:
-            return _profile_map(file, *_as_column(profile, spacing), periodic, otherwise)
+    if suffix == ".npy" and not described and spacing is None:
+        raise InputError(f"spacing: {file} holds none; give that of its points, such as 1um")
     if suffix == ".toml":
         surface = make(read_description(file))
     else:
         try:
-            surface = read_surface(file, spacing=spacing)
+            found = read_measurement(file, spacing=spacing)
         except InputError as error:
             remedy = " in a recipe of roughfilm surface, and take the surface that it writes"
             raise InputError(str(error).replace(" in the recipe", remedy)) from None
+        if isinstance(found, Profile):
+            return _profile_map(file, found, periodic, otherwise)
+        surface = found
     if surface.invalid.any():
         count = int(surface.invalid.sum())
         raise InputError(f"{file}: has {count} invalid points; fill them: roughfilm surface {file} --out S.h5")
@@ -114,33 +113,18 @@ def read_height_map(
     )
 
 
-def _read_profile(file: Path) -> Array | None:
-    """The heights of a profile, shape (n,), (n, 1) or (1, n); None if the file holds something else."""
-    header = read_header(file, NPY_REMEDY)
-    if not (len(header.shape) == 1 or (len(header.shape) == 2 and 1 in header.shape)):
-        return None
-    return read_numbers(file, header)
-
-
-def _as_column(heights: Array, spacing: tuple[float, float]) -> tuple[Array, tuple[float, float]]:
-    """The heights of a profile in shape (n, 1), and (dx, dy), m, with dx between neighbouring points."""
-    dx, dy = spacing
-    return heights.reshape(-1, 1), (dy, dx) if heights.ndim == 2 and heights.shape[0] == 1 else (dx, dy)
-
-
-def _profile_map(file: Path, heights: Array, spacing: tuple[float, float], periodic: bool, otherwise: str) -> HeightMap:
-    if heights.size < 2:
-        raise InputError(f"{file}: holds {heights.size} points; a profile has at least 2")
-    if not np.isfinite(heights).all():
-        count = int((~np.isfinite(heights)).sum())
-        raise InputError(f"{file}: has {count} heights that are not finite; fill them first")
-    surface = Surface(heights=np.repeat(heights, 2, axis=1), spacing=spacing)
+def _profile_map(file: Path, profile: Profile, periodic: bool, otherwise: str) -> HeightMap:
+    if profile.source["filled"]:
+        raise InputError(f"{file}: has {profile.source['filled']} invalid points; fill them first")
+    heights, spacing = profile.heights.reshape(-1, 1), (profile.spacing, profile.spacing)
+    surface = Surface(heights=np.repeat(heights, 2, axis=1), spacing=spacing, source=profile.source)
     return HeightMap(
         heights=heights,
         spacing=spacing,
-        source={"file": file.name, "sha256": file_digest(file), "format": "npy"},
+        source=profile.source,
         warnings=(
             *implausible(surface, file),
+            *repeated_extreme(surface, file),
             *(periodicity_warnings(file, surface, otherwise, measured=False) if periodic else ()),
         ),
     )

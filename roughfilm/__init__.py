@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from roughfilm.interface.curves import stribeck as stribeck
     from roughfilm.interface.fitting import fit_description as fit_description
     from roughfilm.interface.motion import march as march
+    from roughfilm.interface.profiles import fit_profile as fit_profile
+    from roughfilm.interface.profiles import read_profile as read_profile
     from roughfilm.interface.results import load_result as load_result
     from roughfilm.interface.results import save as save
     from roughfilm.interface.scenes import load_scene as load_scene
@@ -61,6 +63,7 @@ else:
         "interface.curves": ("dynamics", "effects", "leakage_curve", "stribeck"),
         "interface.fitting": ("fit_description",),
         "interface.motion": ("march",),
+        "interface.profiles": ("fit_profile", "read_profile"),
         "interface.results": ("load_result", "save"),
         "interface.scenes": ("load_scene", "read_scene", "replace"),
         "interface.solving": ("advise", "compare", "models", "solve"),

@@ -73,12 +73,12 @@ def fit_random_field(cells: Sequence[Surface], independent: float | None = None)
     own = np.maximum(own, LEAST_POWER * rms[:, None] ** 2)
     mean_octaves = np.log(own).mean(axis=0)
     shares = (power / own[:, octaves.ravel()].reshape(power.shape)).mean(axis=0) * np.exp(mean_octaves)[octaves]
-    waves = [_wave_numbers(top) for top in tops]
-    scores, steps = _steps(heights / rms[:, None, None])
+    waves = [wave_numbers(top) for top in tops]
+    scores, steps = quantile_steps(heights / rms[:, None, None])
     values = np.hstack([np.log(own), steps])
     z = np.concatenate([[0.0], np.cumsum(steps.mean(axis=0) ** 2)])
     middle = at_scores(scores, z, scipy.special.ndtri((np.arange(nx * ny) + 0.5) / (nx * ny)))
-    return _read(
+    return described(
         {
             "kind": "random_field",
             "size": [with_unit(side, "m") for side in first.size],
@@ -93,13 +93,13 @@ def fit_random_field(cells: Sequence[Surface], independent: float | None = None)
             "population": {
                 "windows": round(worth, 3),
                 "rms_height": with_unit(float(f"{math.sqrt(np.exp(mean_octaves).sum()):.6g}"), "m"),
-                "octaves": _rounded((mean_octaves - mean_octaves.max()) / DECIBEL, 3),
-                "scores": _rounded(scores, 6),
-                "heights": _rounded((z - middle.mean()) / middle.std(), 6),
+                "octaves": rounded((mean_octaves - mean_octaves.max()) / DECIBEL, 3),
+                "scores": rounded(scores, 6),
+                "heights": rounded((z - middle.mean()) / middle.std(), 6),
                 "modes": [
                     {
-                        "octaves": _rounded(mode[:octave_count] / DECIBEL, 3),
-                        "steps": _rounded(mode[octave_count:], 4),
+                        "octaves": rounded(mode[:octave_count] / DECIBEL, 3),
+                        "steps": rounded(mode[octave_count:], 4),
                     }
                     for mode in _modes(values, worth)
                 ],
@@ -125,13 +125,14 @@ def _refuse(cells: Sequence[Surface], worth: float) -> None:
             raise InputError(f"window {number + 1}: is flat; leave it out")
 
 
-def _read(entries: dict[str, Any]) -> RandomField:
+def described(entries: dict[str, Any]) -> RandomField:
+    """The random field of nested entries."""
     found = read_entries(entries)
     assert isinstance(found, RandomField)
     return found
 
 
-def _wave_numbers(top: int) -> list[int]:
+def wave_numbers(top: int) -> list[int]:
     """Wave numbers from 0 to the largest: every one up to 8, then four for each octave."""
     numbers = list(range(min(SINGLE_WAVES, top) + 1))
     while numbers[-1] < top:
@@ -167,7 +168,7 @@ def _nearest(points: int, numbers: Sequence[int]) -> NDArray[np.intp]:
     return np.where((frequency >= entries[0]) & (frequency <= entries[-1]), nearest, -1)
 
 
-def _steps(heights: Array) -> tuple[Array, Array]:
+def quantile_steps(heights: Array) -> tuple[Array, Array]:
     """Normal scores, and the square roots of the steps between the heights of each window at them."""
     count = heights[0].size
     x = scipy.special.ndtri((np.arange(count) + 0.5) / count)
@@ -195,5 +196,6 @@ def _modes(values: Array, worth: float) -> Array:
     return modes
 
 
-def _rounded(values: Array, digits: int) -> list[float]:
+def rounded(values: Array, digits: int) -> list[float]:
+    """The values with a number of decimals, as a list."""
     return [float(value) for value in np.round(values, digits)]

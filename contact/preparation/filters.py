@@ -89,6 +89,20 @@ def l_filter(surface: Surface, index: float) -> Surface:
     return surface.with_heights(np.where(surface.invalid, 0.0, surface.heights - mean))
 
 
+def mean_line(heights: Array, length: float) -> Array:
+    """The weighted mean of the heights of a profile around each point, of the nesting index in pixels.
+
+    The Gaussian weights are those of :func:`s_filter` along one line (ISO 16610-21); beyond the ends they are left out.
+
+    Parameters
+    ----------
+    heights : shape (n,), m.
+    length : nesting index over the distance of the points, 1 or more.
+    """
+    kernel, level = _truncated(heights.size, length), heights.mean()
+    return np.asarray(level + _along(heights - level, kernel) / _along(np.ones(heights.size), kernel))
+
+
 def nesting_warnings(surface: Surface, s_index: float | None, l_index: float | None) -> tuple[str, ...]:
     """The warnings about nesting indices, m, that the pixels or the side of a surface do not support."""
     warnings = []

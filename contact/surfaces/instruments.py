@@ -35,18 +35,20 @@ class Measurement:
 
     Attributes
     ----------
-    heights : shape (nx, ny), in the unit of the file; NaN where invalid.
+    heights : shape (nx, ny), or (n,) for a profile, in the unit of the file; NaN where invalid.
     height_unit : unit of the heights; None if the file does not give it.
-    size : length along x and y, m; None if the file does not give it.
+    size : length along each axis, m; None if the file does not give it.
     format : name of the file format.
     channel : name of the channel; empty for formats without channels.
+    steps : distance of the points along each axis in the unit of the heights; None if the file does not give it.
     """
 
     heights: Array
     height_unit: str | None
-    size: tuple[float, float] | None
+    size: tuple[float, ...] | None
     format: str
     channel: str
+    steps: tuple[float, ...] | None = None
 
 
 def read_instrument(path: Path, channel: str | None = None) -> Measurement:
@@ -103,7 +105,8 @@ def read_instrument(path: Path, channel: str | None = None) -> Measurement:
     return Measurement(
         heights=np.frombuffer(data).reshape(reply["shape"]),
         height_unit=reply["height_unit"],
-        size=None if size is None else (size[0], size[1]),
+        size=None if size is None else tuple(size),
         format=reply["format"],
         channel=reply["channel"],
+        steps=None if reply["steps"] is None else tuple(reply["steps"]),
     )

@@ -82,8 +82,8 @@ def repeated_extreme(surface: Surface, name: str | Path = "") -> tuple[str, ...]
             if count >= MORE_THAN_OTHERS * others.max():
                 found.append(
                     f"{place}{count} points ({100 * count / heights.size:.2g} %) share the {word} height, "
-                    f"{extreme:.6g} m, to the last bit; if it marks missing points, set read.invalid to it, in the unit of the file, "
-                    f"{IN_RECIPE}"
+                    f"{extreme:.6g} m, to the last bit; if it marks missing points, set read.invalid to it, in the "
+                    f"unit of the file, {IN_RECIPE}"
                 )
     return tuple(found)
 

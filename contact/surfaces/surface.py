@@ -1,5 +1,6 @@
 """A measured or generated surface: heights on a uniform grid, in metres, and their origin."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
@@ -19,6 +20,12 @@ MIN_SPACING = 1e-15
 
 MAX_POINTS = 100_000_000
 """Largest number of points of a surface that is read, generated or pressed."""
+
+
+def check_point_count(place: object, shape: tuple[int, ...]) -> None:
+    """Raise InputError, which begins with the place, for more points than are read."""
+    if math.prod(shape) > MAX_POINTS:
+        raise InputError(f"{place}: claims {' x '.join(map(str, shape))} points; at most {MAX_POINTS} are read")
 
 
 @dataclass(frozen=True, kw_only=True)

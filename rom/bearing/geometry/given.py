@@ -79,7 +79,7 @@ class Given(Pad):
 @lru_cache(maxsize=4)
 def _above_minimum(name: str, _modified: int, _size: int) -> tuple[Array, str]:
     path = Path(name)
-    surface = read_surface(path, spacing=(1.0, 1.0), height_unit=None if has_header(path) else "m")
+    surface = read_surface(path, spacing=(1.0, 1.0), height_unit=None if has_header(path) else "m", lists=False)
     if surface.invalid.any():
         i, j = np.argwhere(surface.invalid)[0]
         raise InputError(f"{path}: has no number at x {i}, y {j}; fill the gap")

@@ -341,7 +341,7 @@ def checked(depths: object) -> Depths:
         from roughfilm.contact.surfaces.files import read_surface  # slow to import
 
         try:
-            return checked(read_surface(Path(depths), spacing=(1.0, 1.0), height_unit="m").heights)
+            return checked(read_surface(Path(depths), spacing=(1.0, 1.0), height_unit="m", lists=False).heights)
         except (InputError, ValueError) as error:
             raise ValueError(f"file {depths!r:.200}: {error}") from error
     try:

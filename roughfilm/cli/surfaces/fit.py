@@ -1,25 +1,31 @@
 """roughfilm fit: a description whose seeds scatter as the windows of a surface do, and how well."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from rich.table import Table
 
+from roughfilm.contact.fitting.profile import fit_profile
 from roughfilm.contact.fitting.text import DESCRIPTION, description_text
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.timing import stopwatch
+from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.foundation.writing.kinds import PAGE
+from roughfilm.contact.preparation.profile import prepare_profile
 from roughfilm.contact.preparation.recipe import load_recipe
-from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.surfaces.files import read_measurement
+from roughfilm.contact.surfaces.profile import Profile
 from roughfilm.contact.surfaces.surface import Surface
+from roughfilm.contact.synthetic.description import RandomField, description_entries
 from roughfilm.fitting.run import AREA, COUNT, SEEDS, fit_windows
 from roughfilm.terminal.console import OUTPUT, AsJson, Overwrite, ReportFile, progress_bar
 from roughfilm.terminal.output_file import refuse_same, refuse_unwritable, replacing_together
 from roughfilm.terminal.ranges import in_si
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.fit import HEADS, entries_of, headline, length, notes, rows
+from roughfilm.words.numbers import in_unit
 
 EXAMPLES = (
     "roughfilm fit measured.x3p --out fitted.toml --report fitted.html",
@@ -27,6 +33,15 @@ EXAMPLES = (
 )
 
 SOURCES = ("10.1103/PhysRevLett.77.635", "A. Gelman et al., Bayesian Data Analysis, section 3.6")
+
+SOURCES_OF_PROFILE = ("P. R. Nayak, 10.1115/1.3451608", "P. D. Welch, 10.1109/TAU.1967.1161901")
+
+OF_PROFILE = (
+    "a profile says nothing of the direction across it: the waves are taken to be alike in all directions, or "
+    "stretched by the anisotropy given",
+    "seeds differ by chance alone, not as windows of the surface do",
+)
+"""Warnings about a description that a profile gave."""
 
 COMPUTED = 0.97
 """Done fraction before the page is drawn."""
@@ -45,6 +60,10 @@ def command(
         str, typer.Option(metavar="A", help="Contact area at which windows and seeds are compared.")
     ] = f"{100 * AREA:g}%",
     seeds: Annotated[int, typer.Option(help="Seeds by which each half is judged.")] = SEEDS,
+    anisotropy: Annotated[
+        float | None,
+        typer.Option(metavar="G", help="Of a profile: length of ridges, along y, over their width (default: 1)."),
+    ] = None,
     recipe: Annotated[Path | None, typer.Option("--prepare", help="The recipe (TOML; default: the usual one).")] = None,
     set_: Annotated[
         list[str] | None,
@@ -53,19 +72,32 @@ def command(
     overwrite: Overwrite = False,
     as_json: AsJson = False,
 ) -> None:
-    """Fit a random description to the windows of a surface, and test it with windows that were not fitted."""
+    """Fit a random description to the windows of a surface, and test it with windows that were not fitted.
+
+    A profile gives the spectrum of an isotropic surface, or of one with ridges across the profile (--anisotropy).
+    """
     refuse_same({"FILE": file, "--prepare": recipe, "--out": out, "--report": report})
     spent, steps = stopwatch(), load_recipe(recipe, set_ or ())
     side = None if size is None else in_si("--size", size, "m")
     fraction = in_si("--area", area, "%") / 100
     with progress_bar(1.0) as advance:
         advance(0.0, f"reading {file.name}")
-        given: Surface | Path = file
+        given: Surface | Profile | Path = file
         if file.suffix.lower() != ".toml":
-            given = read_surface(file, **dict(steps.read))
+            given = read_measurement(file, **dict(steps.read))
         elif recipe or set_:
             raise InputError(f"{file}: is described and periodic; leave out --prepare and --set")
+        if isinstance(given, Profile):
+            for option, value in (("--report", report), ("--size", size)):
+                if value is not None:
+                    raise InputError(f"{option}: {file} is a profile, which has no windows; leave it out")
+        elif anisotropy is not None:
+            raise InputError(f"--anisotropy: {file} is a surface, which has its own lay; leave it out")
         refuse_unwritable((out, DESCRIPTION), (report, PAGE), overwrite=overwrite)
+        if isinstance(given, Profile):
+            field = fit_profile(prepare_profile(given, steps), anisotropy=anisotropy or 1.0)
+            _show_field(file.name, given, field, spent, out, overwrite=overwrite, as_json=as_json)
+            return
         fit = fit_windows(
             given,
             steps,
@@ -98,3 +130,30 @@ def command(
             yield f"{'lacking' if one.lacking else 'windows'}: {one.text}"
 
     show_result(entries, shown(), as_json=as_json, summary=written(headline(fit), out, report))
+
+
+def _show_field(
+    name: str,
+    profile: Profile,
+    field: RandomField,
+    spent: Callable[[], dict[str, float]],
+    out: Path | None,
+    *,
+    overwrite: bool,
+    as_json: bool,
+) -> None:
+    """Write the description that a profile gave, and show it."""
+    with replacing_together((out, DESCRIPTION), overwrite=overwrite) as (text,):
+        if text is not None:
+            text.write_text(description_text(field, [f"From the profile {name}.", *OF_PROFILE]), encoding="utf-8")
+    rms = Quantity(value=field.population.rms_height, unit="m")
+    entries = {
+        "description": description_entries(field),
+        "quantities": {"rms_height": {"value": rms.value, "unit": rms.unit}},
+        "numerics": {"points": profile.heights.size, **spent()},
+        "provenance": origin(SOURCES_OF_PROFILE, OF_PROFILE, profile=dict(profile.source)),
+    }
+    sides = " x ".join(" ".join(in_unit(Quantity(value=side, unit="m"))) for side in field.size)
+    points = " x ".join(map(str, field.points))
+    summary = written(f"{name}: a surface of {points} points, {sides}, rms height {' '.join(in_unit(rms))}", out)
+    show_result(entries, iter(()), as_json=as_json, summary=summary)

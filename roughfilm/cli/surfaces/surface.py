@@ -1,8 +1,8 @@
 """roughfilm surface: a periodic roughness cell from a measured surface, with its parameters before and after."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 from rich.table import Table
@@ -12,12 +12,15 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.foundation.writing.kinds import PAGE
-from roughfilm.contact.parameters.definitions import AREAL
-from roughfilm.contact.parameters.roughness_parameters import parameters
+from roughfilm.contact.parameters.definitions import AREAL, PROFILE, PROFILE_STANDARD
+from roughfilm.contact.parameters.profile import SECTIONS
+from roughfilm.contact.parameters.roughness_parameters import parameters, profile_parameters
 from roughfilm.contact.preparation.prepare import Prepared, prepare
+from roughfilm.contact.preparation.profile import prepare_profile
 from roughfilm.contact.preparation.recipe import AS_IT_IS, Reading, Recipe, load_recipe, recipe_entries
-from roughfilm.contact.surfaces.files import read_surface
+from roughfilm.contact.surfaces.files import read_measurement
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD
+from roughfilm.contact.surfaces.profile import Profile
 from roughfilm.contact.surfaces.store import MARK, save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make, read_description
@@ -31,6 +34,9 @@ EXAMPLES = ("roughfilm surface scripts/examples/surfaces/milled.toml --out cell.
 
 SOURCES = ("ISO 25178-2:2021", "F. Sahlin, Luleå University of Technology 2008:26, sections E.3.1 and F.3")
 STEP_COUNT = 5
+
+WITHOUT_L_FILTER = "a primary profile: set l_filter, such as 0.8 mm, for the parameters of the roughness profile (R)"
+"""Warning about a profile whose long waves are kept."""
 
 OF_THE_CELL = {
     "invalid_fraction": "points without a height",
@@ -61,6 +67,12 @@ def command(
     with progress_bar(STEP_COUNT) as advance:
         advance(0, f"reading {file.name}")
         surface = _read(file, steps)
+    if isinstance(surface, Profile):
+        if out is not None or report is not None:
+            raise InputError(f"{file}: is a profile, which has no cell; make a surface of it by roughfilm fit")
+        _show_profile(file.name, surface, steps, spent, as_json=as_json)
+        return
+    with progress_bar(STEP_COUNT) as advance:
         refuse_unwritable((out, marked(MARK)), (report, PAGE), overwrite=overwrite)
         if surface.periodic and recipe is None:
             steps = load_recipe(None, set_ or (), AS_IT_IS)
@@ -102,13 +114,49 @@ def command(
     show_result(entries, shown(), as_json=as_json, summary=summary)
 
 
-def _read(file: Path, recipe: Recipe) -> Surface:
+def _read(file: Path, recipe: Recipe) -> Surface | Profile:
     read = recipe.read
     if file.suffix.lower() == ".toml":
         if read != Reading():
             raise InputError(f"{file}: holds its own spacing and unit; leave out the recipe's table read")
         return make(read_description(file))
-    return read_surface(file, **dict(read))
+    return read_measurement(file, **dict(read))
+
+
+def _show_profile(
+    name: str, measured: Profile, recipe: Recipe, spent: Callable[[], dict[str, float]], *, as_json: bool
+) -> None:
+    """The parameters of a profile, in place of those of a surface."""
+    profile = prepare_profile(measured, recipe)
+    letter: Literal["P", "R"] = "P" if recipe.l_filter is None else "R"
+    count = profile.heights.size
+    quantities = profile_parameters(profile.heights, profile.spacing, sections=min(SECTIONS, count), profile=letter)
+    warnings = [] if recipe.l_filter is not None else [WITHOUT_L_FILTER]
+    if measured.source["filled"]:
+        warnings.append(f"{measured.source['filled']} of {count} points were invalid, and are interpolated")
+    entries = {
+        "quantities": {name: {"value": one.value, "unit": one.unit} for name, one in quantities.items()},
+        "numerics": {"points": count, **spent()},
+        "provenance": origin(
+            (PROFILE_STANDARD,), warnings, profile=dict(profile.source), recipe=recipe_entries(recipe)
+        ),
+    }
+
+    def shown() -> Iterator[Table | str]:
+        rows = []
+        for key, one in quantities.items():
+            value, unit = in_unit(one)
+            rows.append((f"{key}, {unit}" if unit else key, value, PROFILE[f"R{key[1:]}"].meaning))
+        table = table_of(("parameter", "profile", "meaning"), rows, title=name, left=1)
+        table.columns[-1].justify = "left"
+        yield table
+
+    length, rms = (
+        " ".join(in_unit(Quantity(value=profile.length, unit="m"))),
+        " ".join(in_unit(quantities[f"{letter}q"])),
+    )
+    summary = f"{name}: a profile of {count} points, {length} long, {letter}q {rms}"
+    show_result(entries, shown(), as_json=as_json, summary=summary)
 
 
 def _quantities(prepared: Prepared) -> dict[str, Quantity]:

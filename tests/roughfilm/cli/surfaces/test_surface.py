@@ -200,7 +200,7 @@ HEAD = "# spacing: 1 um, 1 um; heights: um\n"
 BAD = [
     ("invalid.csv", HEAD + "nan,nan\nnan,nan\n", "every pixel is invalid"),
     ("constant.csv", HEAD + "3,3,3,3\n" * 4, "there is no roughness to prepare"),
-    ("row.csv", HEAD + "1,2,3,4\n", "a surface has at least 2 x 2"),
+    ("row.csv", HEAD + "1,2,3,4\n", "is a profile, which has no cell"),
     ("infinite.csv", HEAD + "1,2\n3,-inf\n", "is infinite"),
     ("letter.csv", "Dear colleague\n", "write numbers with commas between"),
     ("units.csv", "# spacing: 1 um, 1 kg; heights: um\n1,2\n3,4\n", "wrong dimension"),
@@ -236,3 +236,38 @@ def test_both_outputs_in_one_file_are_refused(run, csv, tmp_path):
     done = run(csv, "--out", tmp_path / "x", "--report", tmp_path / "x")
     assert done.exit_code == 2
     assert "is the same file as --out" in done.stderr
+
+
+def profile_file(path, points=900):
+    z = np.convolve(np.random.default_rng(4).standard_normal(points + 6), np.ones(7), "valid")
+    path.write_text("".join(f"{0.5 * i:.6g},{v:.9g}\n" for i, v in enumerate(z)))
+    return z
+
+
+@pytest.mark.parametrize(("cut_off", "letter"), [(None, "P"), ("50 um", "R")])
+def test_a_profile_has_the_parameters_of_a_profile(run, tmp_path, cut_off, letter):
+    z = profile_file(tmp_path / "p.csv")
+    options = [
+        "--set",
+        "read.height_unit=um",
+        "--set",
+        "form=mean",
+        *(["--set", f"l_filter={cut_off}"] if cut_off else []),
+    ]
+    done = run(tmp_path / "p.csv", "--json", *options)
+    found = json.loads(done.stdout)["quantities"]
+    assert {
+        f"{letter}{name}" for name in ("a", "q", "t", "p", "v", "z", "sk", "ku", "k", "pk", "vk", "dq", "sm", "c")
+    } <= set(found)
+    if cut_off is None:
+        assert found["Pq"]["value"] == pytest.approx(1e-6 * z.std(), rel=1e-6)
+        assert found["Pt"]["value"] == pytest.approx(1e-6 * np.ptp(z), rel=1e-6)
+
+
+@pytest.mark.parametrize("option", ["--out", "--report"])
+def test_a_profile_has_no_cell(run, tmp_path, option):
+    profile_file(tmp_path / "p.csv")
+    done = run(tmp_path / "p.csv", "--set", "read.height_unit=um", option, tmp_path / "x")
+    assert done.exit_code == 2
+    assert "is a profile, which has no cell" in " ".join(done.output.split())
+    assert not (tmp_path / "x").exists()
