@@ -201,7 +201,7 @@ COMMANDS = {
     "charts": Command(words=("charts", "--family", "cavitating slider", "--out", "charts", "--json")),
     "validate": Command(words=_words("validate --source fowell --source hertz --out numbers --json")),
     "dynamics": Command(
-        words=_words("dynamics shaft.toml --out whirl --speeds 3000rpm,6000rpm,9000rpm --resolution 16 --json"),
+        words=_words("dynamics shaft.toml --out whirl --speeds 3000rpm,6000rpm,9000rpm --resolution 32 --json"),
     ),
     "march": Command(words=("march.py",)),
 }
