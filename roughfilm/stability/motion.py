@@ -369,7 +369,6 @@ REFUSED: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {
     "a load above that of the thinnest film": (BORES["two axial grooves"], {"load": {"force": "1e9 N"}}),
     "no sliding": (BORES["two axial grooves"], {"motion": {"speed": "0 m/s"}}),
     "a shaft outside of its bore": ({**BORES["two axial grooves"], "eccentricity": [0.9, -0.9]}, {}),
-    "a bore without gaps whose sides are empty": ({}, {"boundary": {}}),
     "misalignment beyond the clearance": (
         {**BORES["two axial grooves"], "eccentricity": [0.0, -0.5], "misalignment": ["2 mrad", "0 rad"]},
         {},

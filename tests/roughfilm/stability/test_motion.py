@@ -32,7 +32,7 @@ def test_known_places_and_motions_come_back(group: str, row: str, column: str) -
 
 def test_shafts_without_an_equilibrium_are_refused() -> None:
     asked = [one for one in probes(48) if one.refused]
-    assert [one.spot().outcome for one in asked] == [MapOutcome.REFUSED] * 6
+    assert [one.spot().outcome for one in asked] == [MapOutcome.REFUSED] * 5
 
 
 def test_a_place_is_wrong_where_it_is_another_one_or_its_uncertainty_too_small() -> None:
