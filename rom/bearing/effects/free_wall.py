@@ -68,5 +68,5 @@ def solved_freely(variant: Variant, cells: int, progress: Progress = silent) -> 
         balance=free.balance or 0.0,
         cpu_s=working_time() - cpu,
         warnings=(*grid_warnings(solution), *scene_warnings(scene, solution)),
-        outside=film_outside(scene, solution),
+        outside=film_outside(there[0], solution),
     )

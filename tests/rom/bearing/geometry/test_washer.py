@@ -122,8 +122,8 @@ def test_points_in_a_text_file_have_the_unit_of_its_header(tmp_path):
     ("values", "name", "words"),
     [
         (np.where(np.eye(3), np.nan, 1e-6), "h.npy", "has no number at x 0, y 0"),
-        (np.ones(4), "h.npy", r"got float64 of shape \(4,\)"),
-        (np.ones((1, 4)), "h.npy", "holds 1 x 4 points"),
+        (np.ones(4), "h.npy", "is a profile of 4 points"),
+        (np.ones((1, 4)), "h.npy", "is a profile of 4 points"),
         ("1, 2\n3\n", "h.csv", "line 2 has 1 cells"),
         ("1, x\n", "h.csv", "got 'x'"),
         ("", "h.npy", "is empty"),
