@@ -10,6 +10,7 @@ from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve
 from roughfilm.rom.bearing.dynamics.whirl import SAME
 from roughfilm.rom.bearing.free.film import refilled
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.leading import missing_in_series
 from roughfilm.words.numbers import digits
 from roughfilm.words.outside import outside_in_words, outside_of_series
 from roughfilm.words.stribeck import SpeedScale, speed_scale
@@ -102,11 +103,14 @@ def slow_up_to(point: DynamicPoint) -> str:
 
 
 def heat_warnings(scene: Bearing, curves: Sequence[DynamicCurve]) -> list[str]:
-    """Warnings about temperatures out of the range of the law of the viscosity, or about heating that is left out."""
+    """Warnings about temperatures out of the range of the law of the viscosity, or about heat that is not known."""
     lubricant = scene.lubricant
     points = [point for curve in curves for point in curve.points]
     found = [point.numbers["temperature"] + ZERO_CELSIUS for point in points if "temperature" in point.numbers]
-    return lubricant.hot(max(found)) if found else lubricant.left_out_heat
+    if not found:
+        return lubricant.left_out_heat
+    transfers = [point.estimated_heat_transfer for point in points]
+    return [*lubricant.hot(max(found)), *missing_in_series(transfers, "speeds", contained=True)]
 
 
 def warnings_of(scene: Bearing, curve: DynamicCurve) -> list[str]:

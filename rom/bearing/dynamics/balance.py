@@ -32,12 +32,14 @@ class Equilibrium:
     ----------
     film : the film, whose scene has the lubricant at the temperature of the film.
     instant : its state.
+    cells : numbers of cells along and across.
     temperatures : the temperatures that its heat brings about; None of a lubricant without temperature.
     slope : change of the temperature T_eq that the heat brings about with that of the film, dT_eq/dT.
     """
 
     film: FreeFilm
     instant: Instant
+    cells: tuple[int, int]
     temperatures: Temperatures | None = None
     slope: float = 0.0
 
@@ -56,6 +58,7 @@ def balanced_equilibrium(
     cells: tuple[int, int],
     *,
     coarse: Equilibrium | None = None,
+    transfer: float | None = None,
 ) -> Equilibrium:
     """The equilibrium of a bearing on a grid, with the heat of its film balanced if its lubricant has a temperature.
 
@@ -69,7 +72,8 @@ def balanced_equilibrium(
     scene : the bearing with the lubricant as it is supplied.
     walls : its walls, smooth or rough.
     cells : numbers of cells along and across.
-    coarse : the equilibrium on a coarser grid.
+    coarse : the equilibrium on a coarser grid, or with another heat transfer.
+    transfer : heat transfer to the surroundings in place of that of the scene, W/K.
 
     Raises
     ------
@@ -93,7 +97,7 @@ def balanced_equilibrium(
 
     if scene.lubricant.lacking:
         film = film_of(scene)
-        return Equilibrium(film=film, instant=settled(film, None))
+        return Equilibrium(film=film, instant=settled(film, None), cells=cells)
     last: list[Equilibrium] = []
 
     def brought_about(temperature: float) -> float:
@@ -107,8 +111,8 @@ def balanced_equilibrium(
             instant = before.instant
         else:
             instant = settled(film, None if before is None else before.instant)
-        found = temperatures_of(scene, film, instant)
-        last[:] = [Equilibrium(film=film, instant=instant, temperatures=found)]
+        found = temperatures_of(scene, film, instant, transfer)
+        last[:] = [Equilibrium(film=film, instant=instant, cells=cells, temperatures=found)]
         return found.effective
 
     supplied = scene.lubricant.liquid.temperature
@@ -123,13 +127,14 @@ def balanced_equilibrium(
     return replace(last[0], slope=found.slope)
 
 
-def temperatures_of(scene: Bearing, film: FreeFilm, instant: Instant) -> Temperatures:
+def temperatures_of(scene: Bearing, film: FreeFilm, instant: Instant, transfer: float | None = None) -> Temperatures:
     """The temperatures that the heat of a film in equilibrium brings about.
 
     Parameters
     ----------
     scene : the bearing with the lubricant as it is supplied.
     film, instant : the equilibrium, whose scene has the lubricant at the temperature of the film.
+    transfer : heat transfer to the surroundings in place of that of the scene, W/K.
 
     Raises
     ------
@@ -138,7 +143,7 @@ def temperatures_of(scene: Bearing, film: FreeFilm, instant: Instant) -> Tempera
     """
     liquid, solution = scene.lubricant.liquid, film.solution(instant)
     exchange = exchange_of(film.scene, solution, static_quantities(film, instant), liquid.temperature)
-    return temperatures(exchange, liquid)
+    return temperatures(exchange if transfer is None else replace(exchange, conductance=transfer), liquid)
 
 
 def point_of(found: Equilibrium, ratio: float) -> GridPoint:

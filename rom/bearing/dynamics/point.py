@@ -100,6 +100,8 @@ class DynamicPoint:
         the rotation; empty for other walls.
     residual : larger of the relative residuals of the film and of the forces.
     cpu_s : CPU time, s.
+    estimated_heat_transfer : heat transfer to the surroundings that is estimated, as the scene gives none, W/K (W/(m K)
+        if infinitely wide); 0 where the lubricant takes away more than it does.
     outside : the ways in which the film is outside the range of the model; the error of the numbers is then unknown.
     """
 
@@ -112,6 +114,7 @@ class DynamicPoint:
     spectrum: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     residual: float
     cpu_s: float
+    estimated_heat_transfer: float = 0.0
     outside: tuple[str, ...] = ()
 
     @property
@@ -226,7 +229,7 @@ def rotation_of(scene: Bearing, speed: float) -> float:
 def finished(
     points: Sequence[GridPoint],
     rotation: float,
-    of_walls: Callable[[str], float] = lambda _name: 0.0,
+    of_inputs: Callable[[str], float] = lambda _name: 0.0,
     balance: float = 0.0,
 ) -> tuple[dict[str, float], dict[str, float]]:
     """The numbers on the finest grid and their uncertainties.
@@ -237,13 +240,16 @@ def finished(
     ----------
     points : the point on each grid, from fine to coarse; a single one has no uncertainty.
     rotation : rotational speed ω, rad/s.
-    of_walls : the uncertainty of a number, or of an entry of the whirl, by flow factors and contact pressures.
+    of_inputs : the uncertainty of a number, or of an entry of the whirl, by flow factors, contact pressures and an
+        estimated heat transfer.
     balance : relative error of the load.
     """
     cells, finest = [point.cells for point in points], points[0]
     numbers = dict(finest.numbers)
     uncertainty = {
-        name: grid_uncertainty(cells, [point.numbers[name] for point in points]) + of_walls(name) + balance * abs(value)
+        name: grid_uncertainty(cells, [point.numbers[name] for point in points])
+        + of_inputs(name)
+        + balance * abs(value)
         if len(points) > 1 and all(math.isfinite(point.numbers[name]) for point in points)
         else math.inf
         for name, value in numbers.items()
@@ -255,12 +261,12 @@ def finished(
     inverse, squared = ([getattr(whirl, name) for whirl in whirls] for name in ("inverse_mass", "frequency_squared"))
     numbers["critical_mass"] = 1 / inverse[0] if inverse[0] > 0 else math.inf
     numbers["whirl_ratio"] = math.sqrt(max(squared[0], 0.0)) / rotation if math.isfinite(squared[0]) else math.nan
-    by_walls = of_walls("inverse_mass"), of_walls("frequency_squared")
+    by_inputs = of_inputs("inverse_mass"), of_inputs("frequency_squared")
     uncertainty["critical_mass"] = _after(
-        lambda value: 1 / value if value > 0 else math.inf, cells, inverse, by_walls[0]
+        lambda value: 1 / value if value > 0 else math.inf, cells, inverse, by_inputs[0]
     )
     uncertainty["whirl_ratio"] = _after(
-        lambda value: math.sqrt(max(value, 0.0)) / rotation, cells, squared, by_walls[1]
+        lambda value: math.sqrt(max(value, 0.0)) / rotation, cells, squared, by_inputs[1]
     )
     return numbers, uncertainty
 

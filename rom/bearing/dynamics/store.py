@@ -36,6 +36,7 @@ OPERATION = {
     "rotation": "rad/s",
     "residual": "1",
     "cpu_s": "s",
+    "estimated_heat_transfer": "W/K",
 }
 """Names and units of the numbers of a point that are no quantities."""
 

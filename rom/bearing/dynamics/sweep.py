@@ -12,6 +12,7 @@ from roughfilm.contact.foundation.timing import imports_apart, working_time
 from roughfilm.rom.bearing.corners import infinite_flows
 from roughfilm.rom.bearing.dynamics.balance import Equilibrium, balanced_equilibrium, point_of
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, rotation_of
+from roughfilm.rom.bearing.dynamics.transfer_errors import transfer_errors
 from roughfilm.rom.bearing.dynamics.wall_errors import wall_errors
 from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
 from roughfilm.rom.bearing.free.solve import placed
@@ -97,8 +98,8 @@ def dynamics(
     """Compute equilibrium, stiffness and damping of a bearing at several speeds and loads.
 
     Films are solved on three grids with a quarter, half and all of the cells, each from the one before, from which the
-    uncertainty is estimated; that of flow factors and contact pressures adds to it. Points without an equilibrium are
-    left out.
+    uncertainty is estimated; that of flow factors, of contact pressures and of a heat transfer that is estimated adds
+    to it. Points without an equilibrium are left out.
 
     If the lubricant of the scene has a temperature (``thermoviscosity``, ``density`` and ``heat_capacity``), the film
     of each point, on each grid, has the one at which its heat is balanced
@@ -196,11 +197,13 @@ def dynamic_point(
     points = [point for point in points if point.numbers["film_min"] > closest]
     speed, film, instant = abs(scene.motion.speed), solved[-1].film, solved[-1].instant
     rotation = rotation_of(scene, speed)
-    of_walls = wall_errors(scene, walls, solved[max(len(solved) - 2, 0)], frequency_ratio)
+    middle, heated = solved[max(len(solved) - 2, 0)], solved[-1].temperatures
+    of_walls, of_transfer = (errors(scene, walls, middle, frequency_ratio) for errors in (wall_errors, transfer_errors))
     shaft = ~film.wall.turns
     net_force = film.solved.force(instant.state.pressure) + film.solved.contact_at(instant.place).force + film.load
     load = math.hypot(*film.load[shaft])
-    numbers, uncertainty = finished(points, rotation, of_walls, math.hypot(*net_force[shaft]) / load)
+    balance = math.hypot(*net_force[shaft]) / load
+    numbers, uncertainty = finished(points, rotation, lambda name: of_walls(name) + of_transfer(name), balance)
     solution = film.solution(instant)
     uncertainty |= dict.fromkeys(infinite_flows(solution) & uncertainty.keys(), math.inf)
     return DynamicPoint(
@@ -212,6 +215,7 @@ def dynamic_point(
         uncertainty=uncertainty,
         spectrum=points[0].spectrum,
         residual=max(instant.residual, instant.force_residual),
+        estimated_heat_transfer=0.0 if heated is None else heated.estimated,
         cpu_s=working_time() - cpu,
         outside=(*film_outside(placed(film, instant), solution), *_of_lubricant(scene, solved[-1])),
     )

@@ -1,6 +1,6 @@
 """The input on which the temperature of a film depends most."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -56,10 +56,7 @@ def leading_input(
         still = f"{STILL_AIR}, {IN_A_MACHINE * exchange.area:.2g} {unit}"
         if insulated:
             return (f"temperature: {little}, less than {still}, but the walls take no heat; take heat_balance",)
-        return (
-            f"temperature: it depends most on heat.heat_transfer and heat.area, which are missing: {little} only, so "
-            f"that the bearing gives off {still}; the uncertainty contains a factor of two of it",
-        )
+        return (_missing("", f"{little} only", still, contained=True),)
     viscosity, slope = (float(one[0]) for one in liquid.viscosity(np.array([temperature])))
     sensitivity = -slope / viscosity
     follows = 1 + max(sensitivity * (temperature - liquid.temperature), 0.0)
@@ -74,6 +71,30 @@ def leading_input(
     direction = "colder" if change < 0 else "warmer"
     lubricant = f"{share(abs(thicker))} {'more' if thicker > 0 else 'less'} viscous"
     return (f"temperature: it depends most on {words}, the film is about {abs(change):.2g} K {direction}, {lubricant}",)
+
+
+def missing_in_series(transfers: Sequence[float], places: str, *, contained: bool) -> tuple[str, ...]:
+    """The warning on the points of a series at which heat transfer is estimated as none is given; () without any.
+
+    Parameters
+    ----------
+    transfers : heat transfer to the surroundings that is estimated at each point, W/K; 0 where none is.
+    places : the points in words, such as "speeds".
+    contained : whether the uncertainty of the temperature contains a factor of two of it.
+    """
+    some = sum(1 for one in transfers if one)
+    where = f"at {some} of {len(transfers)} {places} "
+    little = "the flow of new lubricant takes away less"
+    return (_missing(where, little, STILL_AIR, contained=contained),) if some else ()
+
+
+def _missing(where: str, little: str, still: str, *, contained: bool) -> str:
+    """That a temperature depends on a heat transfer that is missing, and by how much the uncertainty takes it."""
+    has = "contains" if contained else "does not contain"
+    return (
+        f"temperature: {where}it depends most on heat.heat_transfer and heat.area, which are missing: {little}, so "
+        f"that the bearing gives off {still}; the uncertainty {has} a factor of two of it"
+    )
 
 
 def _varied(

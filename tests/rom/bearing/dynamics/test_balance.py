@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.special import lambertw
 
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.dynamics.balance import balanced_equilibrium, point_of
@@ -14,6 +15,7 @@ from roughfilm.rom.bearing.dynamics.wall_errors import wall_errors
 from roughfilm.rom.bearing.march.rough_walls import walls_of
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.words.dynamics import heat_warnings
 
 COLD, DENSITY, CAPACITY, ETA, BETA = 40.0, 870.0, 2000.0, 0.03, 0.035
 OIL = {
@@ -126,6 +128,32 @@ def test_the_errors_by_flow_factors_cover_a_film_whose_pressures_and_friction_ar
     assert changed["temperature"] > own["temperature"] + 0.1
     for name in own.keys() - {f"{at}damping_{entry}" for at in ("", "whirl_") for entry in ("xy", "yx")}:
         assert abs(changed[name] - own[name]) <= error(name), name
+
+
+def test_an_estimated_heat_transfer_makes_every_number_uncertain_by_a_factor_of_two_and_is_said_once():
+    """Petroff's friction goes to the surroundings by 300 W/(m² K) over diameter times width: a Lambert function."""
+    full = OIL | {"cavitation_pressure": "-10 MPa"}
+    speed, load = 1.0, 1e4
+    scene = scene_of(BORE, oil=full)
+    curve = swept(scene, speed, 2 * speed, pressure=load)
+    point = curve.points[0]
+
+    def temperature(transfer):
+        rise = 2 * math.pi * ETA * speed**2 * 25e-3 * 40e-3 / 30e-6 / (transfer * 50e-3 * 40e-3)
+        return COLD + lambertw(BETA * rise).real / BETA
+
+    colder, own, hotter = (temperature(part * 300.0) for part in (2.0, 1.0, 0.5))
+    assert point.estimated_heat_transfer == pytest.approx(300 * 50e-3 * 40e-3, rel=0.05)
+    assert point.numbers["temperature"] == pytest.approx(own, rel=0.01)
+    assert point.uncertainty["temperature"] == pytest.approx(hotter - own, rel=0.1)
+    thicker = math.exp(-BETA * (colder - own)) - 1
+    assert point.uncertainty["damping_xx"] > abs(thicker) * point.numbers["damping_xx"]
+    (warning,) = heat_warnings(scene, [curve])
+    assert warning.startswith("temperature: at 2 of 2 speeds it depends most on heat.heat_transfer and heat.area, ")
+    given = scene_of(BORE, oil=full, heat={"heat_transfer": "300 W/(m^2*K)", "area": "20 cm^2"})
+    (known,) = swept(given, speed, pressure=load).points
+    assert known.estimated_heat_transfer == 0
+    assert known.uncertainty["temperature"] < 0.01 * (own - COLD)
 
 
 def test_files_keep_temperatures(grooved, tmp_path):

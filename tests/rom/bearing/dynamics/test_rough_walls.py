@@ -102,7 +102,7 @@ def test_thicker_oil_moves_the_shaft_as_pressures_of_an_uncertain_film_do():
     bearing = at_operation(ridged(), 2.0, PRESSURE)
     film, walls = film_of(bearing), replace(walls_of(bearing), of_factors=lambda _film: 0.02)
     instant = equilibrium(film, None, tolerance=1e-11)
-    error = wall_errors(bearing, walls, Equilibrium(film=film, instant=instant), 1.0)
+    error = wall_errors(bearing, walls, Equilibrium(film=film, instant=instant, cells=film.whole.grid.shape), 1.0)
     thick = film_of(at_operation(ridged(lubricant={"viscosity": "0.102 Pa*s"}), 2.0, PRESSURE))
     own, other = grid_point(film, instant, 1.0), grid_point(thick, equilibrium(thick, None, tolerance=1e-11), 1.0)
     for name in ("film_min", "stiffness_xx", "damping_xy", "pressure_max"):
@@ -114,7 +114,7 @@ def test_a_shaft_that_rests_on_its_asperities_moves_with_their_uncertain_separat
     bearing = at_operation(touching, 1e-3, PRESSURE)
     film, own = film_of(bearing), walls_of(bearing)
     walls = Uncertain(film=own.film, contact=own.contact, factors=own.factors, of_factors=lambda _film: 0.0)
-    found = Equilibrium(film=film, instant=equilibrium(film, None, tolerance=1e-10))
+    found = Equilibrium(film=film, instant=equilibrium(film, None, tolerance=1e-10), cells=film.whole.grid.shape)
     error = wall_errors(bearing, walls, found, 1.0)
     assert error("film_min") == pytest.approx(SHIFT, rel=0.05)
 
@@ -122,7 +122,7 @@ def test_a_shaft_that_rests_on_its_asperities_moves_with_their_uncertain_separat
 def test_what_is_not_known_of_the_walls_is_not_known_of_the_numbers(touching):
     bearing = at_operation(touching, 0.05, PRESSURE)
     film, walls = film_of(bearing), replace(walls_of(bearing), of_factors=lambda _film: math.inf)
-    found = Equilibrium(film=film, instant=film.first(film.wall.place))
+    found = Equilibrium(film=film, instant=film.first(film.wall.place), cells=film.whole.grid.shape)
     assert wall_errors(bearing, walls, found, 1.0)("stiffness_xx") == math.inf
     assert wall_errors(bearing, Walls(), found, 1.0)("stiffness_xx") == 0
 

@@ -1,0 +1,49 @@
+"""The errors of stiffness, damping and equilibrium by a heat transfer to the surroundings that is estimated."""
+
+import math
+from collections.abc import Callable
+
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.rom.bearing.dynamics.balance import Equilibrium, balanced_equilibrium, point_of
+from roughfilm.rom.bearing.march.rough_walls import Walls
+from roughfilm.rom.bearing.scene import Bearing
+
+RANGE = (0.5, 2.0)
+"""Ends of the range of an estimated heat transfer over it."""
+
+
+def transfer_errors(scene: Bearing, walls: Walls, found: Equilibrium, ratio: float) -> Callable[[str], float]:
+    """The uncertainty of every number of an equilibrium, or of an entry of its whirl, by an estimated heat transfer.
+
+    The heat is balanced again with half and with twice the heat transfer; the larger change of each number counts. It
+    is infinite where one of them has no equilibrium, and 0 where the heat transfer is given or none is needed.
+
+    Parameters
+    ----------
+    scene : the bearing with the lubricant as it is supplied.
+    walls : its walls.
+    found : the equilibrium on a grid.
+    ratio : frequency of the motion over that of the rotation.
+    """
+    if found.temperatures is None or not found.temperatures.estimated:
+        return lambda _name: 0.0
+    transfers = [part * found.temperatures.estimated for part in RANGE]
+    try:
+        ends = [
+            point_of(balanced_equilibrium(scene, walls, found.cells, coarse=found, transfer=transfer), ratio)
+            for transfer in transfers
+        ]
+    except (InputError, ConvergenceError):
+        return lambda _name: math.inf
+    own = point_of(found, ratio)
+
+    def error(name: str) -> float:
+        if name in own.numbers:
+            changes = [abs(end.numbers[name] - own.numbers[name]) for end in ends]
+        elif own.whirl is None:
+            return 0.0
+        else:
+            changes = [abs(getattr(end.whirl, name) - getattr(own.whirl, name)) for end in ends]
+        return max(changes) if all(map(math.isfinite, changes)) else math.inf
+
+    return error
