@@ -13,7 +13,7 @@ from roughfilm.contact.foundation.reading.regular import file_size
 from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.foundation.writing.kinds import as_input
 from roughfilm.contact.surfaces.files import read_measurement
-from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, periodicity_mismatch
+from roughfilm.contact.surfaces.periodicity import not_periodic
 from roughfilm.contact.surfaces.plausibility import implausible, repeated_extreme
 from roughfilm.contact.surfaces.profile import Profile
 from roughfilm.contact.surfaces.store import is_surface
@@ -142,10 +142,9 @@ def periodicity_warnings(file: Path, surface: Surface, otherwise: str = "", *, m
     """
     if surface.periodic:
         return ()
-    mismatch = periodicity_mismatch(surface)
     remedy = f"roughfilm surface {file} --out S.h5 prepares it{otherwise}"
-    if mismatch > MISMATCH_THRESHOLD:
-        return (f"{file}: is not periodic (mismatch {mismatch:.2g}), so that its edges meet in steps; {remedy}",)
+    if found := not_periodic(surface, file, remedy):
+        return found
     if measured:
         return (f"{file}: is taken as it was measured, with its form and without preparation; {remedy}",)
     return ()

@@ -5,6 +5,9 @@ from dataclasses import dataclass
 
 from roughfilm.contact.foundation.errors import InputError
 
+LINEAR_LIMIT = 0.3
+"""Largest pressure over E* at which strains are small enough for linear elasticity."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Solid:
@@ -47,3 +50,29 @@ def composite_modulus(solid: Solid, counter: Solid | None = None) -> float:
     """
     compliance = sum((1 - body.poisson**2) / body.modulus for body in (solid, counter) if body is not None)
     return 1 / compliance
+
+
+def beyond_elasticity(pressure: float, composite_modulus: float, what: str = "peak pressure") -> tuple[str, ...]:
+    """The sentence on a pressure above 0.3 E*, for which linear elasticity does not hold; none below it.
+
+    Under a sphere of radius R this pressure, 2 a E*/(π R), is reached at a contact radius a of 0.47 R, where the
+    parabola that stands for the sphere is wrong as well. A hardness below the limit bounds the pressure.
+
+    Parameters
+    ----------
+    pressure : a pressure on the surface, Pa.
+    composite_modulus : E*, Pa.
+    what : name of the pressure.
+
+    Examples
+    --------
+    >>> beyond_elasticity(4.2e9, 1.1e9)
+    ('peak pressure 4200 MPa exceeds 0.3 E* = 330 MPa, beyond which linear elasticity does not hold',)
+    """
+    limit = LINEAR_LIMIT * composite_modulus
+    if not pressure > limit:
+        return ()
+    return (
+        f"{what} {pressure / 1e6:.4g} MPa exceeds {LINEAR_LIMIT:g} E* = {limit / 1e6:.4g} MPa, beyond which linear "
+        "elasticity does not hold",
+    )

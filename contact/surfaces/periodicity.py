@@ -1,5 +1,7 @@
 """The periodicity mismatch of a surface: steps across its opposite edges, compared with steps inside it."""
 
+from pathlib import Path
+
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
@@ -87,6 +89,21 @@ def _excess(lines: Array, lag: int) -> float:
     inside = (sums[lag : count - lag + 1] - sums[: count - 2 * lag + 1]) / lag
     joint = (sums[count] - sums[count - lag]) / lag
     return float(joint - np.quantile(inside, INTERIOR_QUANTILE))
+
+
+def not_periodic(surface: Surface, name: str | Path, remedy: str) -> tuple[str, ...]:
+    """The sentence on a surface whose opposite edges meet in steps where it is repeated; none if they do not.
+
+    Parameters
+    ----------
+    surface : without invalid pixels.
+    name : file or argument of the surface, which begins the sentence.
+    remedy : how its edges are joined, which ends it.
+    """
+    mismatch = 0.0 if surface.periodic else periodicity_mismatch(surface)
+    if not mismatch > MISMATCH_THRESHOLD:
+        return ()
+    return (f"{name}: is not periodic (mismatch {mismatch:.2g}), so that its edges meet in steps; {remedy}",)
 
 
 def joint_mismatch(surface: Surface) -> float:

@@ -7,8 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughfilm.contact.foundation.units import Quantity
+from roughfilm.contact.mechanics.solid import beyond_elasticity
 from roughfilm.rom.dry_contact.scene import DryContact
 from roughfilm.rom.ladder.kind import Kind
+from roughfilm.rom.ladder.model import Effect, Model
+from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
 from roughfilm.rom.parts.pressed_surface import RoughContact
 from roughfilm.rom.parts.surface_geometry import replaced_by
@@ -93,6 +96,16 @@ def numbers(scene: RoughContact) -> dict[str, float]:
     }
 
 
+def outside(scene: RoughContact, model: Model[Any], result: Result | None) -> tuple[str, ...]:
+    """The sentence on a peak pressure beyond linear elasticity, or on the mean pressure where no peak is known."""
+    if Effect.DEFORMATION not in model.keeps:
+        return ()
+    peak = None if result is None else result.quantities.get("pressure_max")
+    if peak is None:
+        return beyond_elasticity(scene.load.pressure, scene.composite_modulus, "mean pressure")
+    return beyond_elasticity(peak.value, scene.composite_modulus)
+
+
 KIND = Kind(
     name="dry_contact",
     scene=DryContact,
@@ -113,6 +126,7 @@ KIND = Kind(
     scale=scale,
     columns=columns,
     numbers=numbers,
+    outside=outside,
     symbols=NUMBERS,
     excluded="friction, adhesion and hardening",
     replaces={"geometry.surface": replaced_by},

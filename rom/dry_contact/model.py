@@ -35,13 +35,14 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """The solution of a model: quantities, fields, residual, iterations and warnings."""
+    """The solution of a model: quantities, fields, residual, iterations, warnings, and what is outside its range."""
 
     quantities: Mapping[str, Quantity]
     fields: Mapping[str, Field]
     residual: float
     iterations: int
     warnings: tuple[str, ...] = ()
+    outside: tuple[str, ...] = ()
 
 
 Work = Callable[[Task], Answer]
@@ -117,6 +118,7 @@ def solve(
             heights={"digest": digest_of(surface), "points": list(surface.shape), "used": [nx, ny]},
         ),
         warnings=tuple(warnings),
+        outside=answer.outside,
     )
 
 

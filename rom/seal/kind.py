@@ -51,9 +51,10 @@ def numbers(scene: Seal) -> dict[str, float]:
     return {**own, "length": scene.flow.length / scene.surface().size[scene.axis]} if own else {}
 
 
-def outside(scene: Seal, _model: Any, result: Result | None) -> tuple[str, ...]:
-    """The sentences on a leakage that is not laminar, and on a gas that is taken as a liquid."""
-    return leakage_outside(scene, 0.0 if result is None else result.quantities["leakage_per_width"].value)
+def outside(scene: Seal, model: Any, result: Result | None) -> tuple[str, ...]:
+    """The sentences on a leakage that is not laminar, on a gas taken as a liquid, and on a load beyond elasticity."""
+    leakage = 0.0 if result is None else result.quantities["leakage_per_width"].value
+    return *dry_contact.outside(scene, model, result), *leakage_outside(scene, leakage)
 
 
 def leakage_outside(scene: Seal, leakage: float) -> tuple[str, ...]:

@@ -17,13 +17,14 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.contact.mechanics.contact import Contact
 from roughfilm.contact.mechanics.half_space import Boundary
 from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE, Press
-from roughfilm.contact.mechanics.solid import Solid, composite_modulus
+from roughfilm.contact.mechanics.solid import Solid, beyond_elasticity, composite_modulus
 from roughfilm.contact.parameters import roughness_parameters
 from roughfilm.contact.parameters.profile import SECTIONS
 from roughfilm.contact.preparation import prepare as preparation
 from roughfilm.contact.preparation.recipe import AS_IT_IS
 from roughfilm.contact.registration import combine as combination
 from roughfilm.contact.surfaces import files
+from roughfilm.contact.surfaces.periodicity import not_periodic
 from roughfilm.contact.surfaces.plausibility import implausible, repeated_extreme
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, Surface
 from roughfilm.contact.synthetic.description import make, read_description
@@ -419,6 +420,12 @@ def press(
     ConvergenceError
         If the contact conditions stay violated by more than the tolerance.
 
+    Warns
+    -----
+    UserWarning
+        If the peak pressure exceeds 0.3 E*, beyond which linear elasticity does not hold, or if opposite edges of a
+        surface that is repeated meet in steps.
+
     References
     ----------
     F. Sahlin, Luleå 2008, section E.2.2; V. A. Yastrebov et al., doi:10.1016/j.triboint.2017.04.023 (area
@@ -449,7 +456,11 @@ def press(
             boundary=boundary,
             threads=threads,
         )
-        return body.at(pressure, tolerance=accuracy)
+        contact = body.at(pressure, tolerance=accuracy)
+    edges = not_periodic(surface, "heights", "prepare() joins its edges") if boundary == "periodic" else ()
+    for sentence in (*edges, *beyond_elasticity(float(contact.pressure.max()), body.composite_modulus)):
+        warnings.warn(sentence, UserWarning, stacklevel=2)
+    return contact
 
 
 def flow_factors(
@@ -490,6 +501,11 @@ def flow_factors(
     ConvergenceError
         If a cell problem does not converge.
 
+    Warns
+    -----
+    UserWarning
+        If opposite edges of a surface meet in steps.
+
     Notes
     -----
     The error is of second order in the spacing where the gap is smooth and open, and of nearly first order at the edges
@@ -518,6 +534,9 @@ def flow_factors(
         surfaces, independent = windows.cells, windows.independent
     else:
         surfaces, independent = (surface_of(cast("Heights", heights), spacing),), None
+    steps = (not_periodic(surface, "heights", "prepare() joins its edges") for surface in surfaces)
+    for sentence in next(filter(None, steps), ()):
+        warnings.warn(sentence, UserWarning, stacklevel=2)
     with finite_arithmetic("flow_factors"):
         point = factors_at(
             [surface.heights for surface in surfaces],

@@ -301,6 +301,30 @@ def test_flow_factors_turn_with_the_surface(ridges):
     assert along["A11"].value == pytest.approx(across["A22"].value, rel=1e-6)
 
 
+def test_an_array_that_is_repeated_with_steps_at_its_edges_warns():
+    """A tilt has steps at its edges, a whole wave has none; each is the array of another."""
+    x = np.arange(32)
+    wave, tilt = (np.tile(z[:, None], (1, 32)) for z in (1e-6 * np.cos(2 * np.pi * x / 32), 1e-7 * x))
+    for call in (
+        lambda z: rf.press(z, spacing=1e-6, modulus=1e9, load=1e6),
+        lambda z: rf.flow_factors(z, spacing=1e-6, gap=4e-6),
+        lambda z: rf.flow_factors([rf.Surface(heights=z, spacing=(1e-6, 1e-6))] * 2, gap=4e-6),
+    ):
+        call(wave)
+        with pytest.warns(UserWarning, match=r"heights: is not periodic \(mismatch .*prepare\(\) joins its edges"):
+            call(tilt)
+    rf.press(tilt, spacing=1e-6, modulus=1e9, load=1e6, boundary="free")
+
+
+def test_a_contact_beyond_linear_elasticity_warns():
+    """A wave with Δ/λ = 0.05 is pressed flat at W = π E* Δ/λ, with the peak 2 W = 0.314 E* (Westergaard 1939)."""
+    wave = 0.05 * 64e-6 * np.outer(np.cos(2 * np.pi * np.arange(64) / 64), np.ones(8))
+    given = {"spacing": 1e-6, "modulus": 1e9, "poisson": 0.0, "load": 1.0001 * np.pi * 0.05 * 1e9}
+    with pytest.warns(UserWarning, match=r"peak pressure 314.2 MPa exceeds 0.3 E\* = 300 MPa"):
+        rf.press(wave, **given)
+    rf.press(wave, **given, hardness=2.9e8)
+
+
 def test_a_surface_and_its_array_give_the_same(ridges):
     surface = rf.Surface(heights=ridges, spacing=(1e-6, 1e-6))
     given = {"modulus": 1e9, "load": 1e6}

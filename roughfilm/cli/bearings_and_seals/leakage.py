@@ -12,7 +12,8 @@ from rich.table import Table
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.writing.kinds import PAGE
-from roughfilm.contact.mechanics.store import load_contact
+from roughfilm.contact.mechanics.solid import beyond_elasticity
+from roughfilm.contact.mechanics.store import finished, load_contact
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, is_joined_at_pixel_0, joint_mismatch
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
 from roughfilm.rom.seal.at_load import SealAtLoad, seal_at_load
@@ -116,7 +117,7 @@ def command(
             yield scatter_in_words(body.spread)
 
     name = f"direct_{seal.flow.direction}"
-    beyond = outside_in_words(leakage_outside(seal, answer.leakage_per_width.value))
+    beyond = outside_in_words(entries["outside"])
     sealing_words = f"{WORDS[name]}: {in_words(thresholds[name])}"
     words = "; ".join(filter(None, [beyond, answer_in_words(seal, answer), sealing_words]))
     summary = written(words, page, out / "table.csv")
@@ -129,6 +130,11 @@ def _entries(
     """The object of ``--json``, and the rows as columns of the table."""
     columns = {
         name: Column(values=values, unit=unit) for name, (unit, values) in columns_of(seal, [*rows.values()]).items()
+    }
+    outside = {
+        load: beyond_elasticity(row.pressure_max, seal.composite_modulus)
+        for load, row in finished(body.contacts, body.inputs).items()
+        if row.pressure_max is not None
     }
     quantities: dict[str, Any] = {
         "load": {"value": answer.load, "unit": "Pa"},
@@ -152,21 +158,21 @@ def _entries(
             for name, both in thresholds.items()
         },
         "numerics": {"points": body.surface.heights.size, "loads": len(rows)},
-        "outside": list(leakage_outside(seal, answer.leakage_per_width.value)),
+        "outside": [*outside.get(answer.load, ()), *leakage_outside(seal, answer.leakage_per_width.value)],
         "provenance": origin(
             SOURCES,
-            [*_outside_warnings(seal, columns), *_warnings(seal, body, rows, thresholds)],
+            [*_outside_warnings(seal, columns, outside), *_warnings(seal, body, rows, thresholds)],
             scene=scene_entries(seal),
         ),
     }
     return entries, columns
 
 
-def _outside_warnings(seal: Seal, columns: Mapping[str, Column]) -> list[str]:
-    """The warning on loads whose leakage is not laminar, or of a gas that is taken as a liquid."""
+def _outside_warnings(seal: Seal, columns: Mapping[str, Column], outside: Mapping[float, tuple[str, ...]]) -> list[str]:
+    """The warning on loads beyond elasticity, whose leakage is not laminar, or of a gas that is taken as a liquid."""
     leaks = np.array([column.values for column in columns.values() if column.unit == "kg/(m*s)"], dtype=float)
     points = [
-        (f"{load / 1e6:.4g} MPa", leakage_outside(seal, float(np.nanmax(own))))
+        (f"{load / 1e6:.4g} MPa", (*outside.get(load, ()), *leakage_outside(seal, float(np.nanmax(own)))))
         for load, own in zip(np.array(columns["load"].values, dtype=float), leaks.T, strict=True)
     ]
     beyond = outside_of_series(points)

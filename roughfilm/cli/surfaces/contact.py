@@ -28,7 +28,7 @@ from roughfilm.contact.mechanics.models import (
     solver,
 )
 from roughfilm.contact.mechanics.press import COMPLEMENTARITY_TOLERANCE
-from roughfilm.contact.mechanics.solid import Solid, composite_modulus
+from roughfilm.contact.mechanics.solid import Solid, beyond_elasticity, composite_modulus
 from roughfilm.contact.mechanics.store import MARK, UNITS, Row
 from roughfilm.contact.read import HeightMap, parse_spacing, read_height_map
 from roughfilm.rom.ladder.provenance import code
@@ -38,6 +38,7 @@ from roughfilm.terminal.ranges import loads_of
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.words.contact import number_of
 from roughfilm.words.numbers import digits
+from roughfilm.words.outside import outside_in_words, outside_of_series
 
 EXAMPLES = (
     "roughfilm surface scripts/examples/surfaces/milled.toml --out cell.h5",
@@ -164,7 +165,8 @@ def command(
         yield table_of([*COLUMNS], map(_cells, series.rows), title=surface.name)
 
     bars = series.uncertainties.get(series.rows[-1].load, {})
-    summary = written(_in_words(chosen, series.rows[-1], bars), out, report)
+    words = filter(None, [outside_in_words(entries["outside"]), _in_words(chosen, series.rows[-1], bars)])
+    summary = written("; ".join(words), out, report)
     show_result(entries, shown(), as_json=as_json, reused="loads", summary=summary)
 
 
@@ -222,7 +224,9 @@ def _entries(model: ContactModel, rough: HeightMap, settings: dict[str, Any], se
     quantities["plasticity_index"] = {"value": _plasticity_index(series.rows[-1]), "unit": "1"}
     quantities["composite_modulus"] = {"value": settings["composite_modulus"], "unit": "Pa"}
     violations = [row.complementarity for row in series.rows if row.complementarity is not None]
-    warnings = list(rough.warnings)
+    found = [_outside(model, row, settings["composite_modulus"]) for row in series.rows]
+    points = [(f"{row.load / 1e6:.4g} MPa", reasons) for row, reasons in zip(series.rows, found, strict=True)]
+    warnings = [*rough.warnings, *filter(None, [outside_of_series(points)])]
     if series.untrusted:
         outside = f"{len(series.untrusted)} of {len(series.rows)} loads lie outside the range where {model} is trusted"
         better = ContactModel.ELASTIC if settings["hardness"] is None else ContactModel.ELASTIC_PLASTIC
@@ -238,8 +242,18 @@ def _entries(model: ContactModel, rough: HeightMap, settings: dict[str, Any], se
             "loads": len(series.rows),
             "loads_found": series.reused,
         },
+        "outside": list(found[-1]),
         "provenance": origin([SOURCES[model]], warnings, surface=dict(rough.source), settings=settings),
     }
+
+
+def _outside(model: ContactModel, row: Row, composite_modulus: float) -> tuple[str, ...]:
+    """The sentence on a pressure beyond linear elasticity; the bearing area does not use it."""
+    if model is ContactModel.BEARING_AREA:
+        return ()
+    if row.pressure_max is None:
+        return beyond_elasticity(row.load, composite_modulus, "mean pressure")
+    return beyond_elasticity(row.pressure_max, composite_modulus)
 
 
 def _plasticity_index(row: Row) -> float:

@@ -8,6 +8,7 @@ import pytest
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
+from roughfilm.rom.dry_contact.kind import KIND
 from roughfilm.rom.ladder.model import ladder, of_kind
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.store import as_bytes, load
@@ -237,3 +238,20 @@ def test_an_elastic_contact_above_the_hardness_warns_with_the_area(make_contact)
     assert any(f"exceeds the hardness on {above:.3g} of the nominal area" in warning for warning in soft.warnings)
     assert not hard.warnings
     assert not solved("elastic_plastic", make_contact(hardness=2e9)).warnings
+
+
+@pytest.mark.parametrize(("hardness", "beyond"), [(None, True), (3.2e10, True), (2.9e10, False)])
+def test_a_peak_pressure_beyond_linear_elasticity_is_outside_the_range(make_contact, hardness, beyond):
+    """A wave with Δ/λ = 0.05 is pressed flat at W = π E* Δ/λ, with the peak 2 W = 0.314 E* (Westergaard 1939)."""
+    name, load = ("elastic" if hardness is None else "elastic_plastic"), 1.0001 * np.pi * 0.05 * 1e11
+    scene = make_contact(wave(64, amplitude=5e-6), modulus=1e11, pressure=load, hardness=hardness)
+    outside = solved(name, scene).outside
+    assert bool(outside) == beyond
+    assert all("exceeds 0.3 E* = 3e+04 MPa, beyond which linear elasticity does not hold" in one for one in outside)
+
+
+def test_a_mean_pressure_beyond_linear_elasticity_is_outside_the_range_before_the_solution(make_contact):
+    scene = make_contact(modulus=1e11, pressure=3.1e10)
+    elastic, area = (find("dry_contact", name) for name in ("elastic", "bearing_area"))
+    assert "mean pressure 3.1e+04 MPa exceeds" in KIND.outside(scene, elastic, None)[0]
+    assert KIND.outside(scene, area, None) == ()

@@ -91,7 +91,7 @@ def test_a_wave_opens_as_westergaard_said(wave):
 
 def test_json_is_one_object_with_every_number_of_every_load(rough):
     answer = stated(rough, *PLASTIC, "--loads", "50MPa..2GPa:4")
-    assert set(answer) == {"series", "units", "quantities", "numerics", "provenance"}
+    assert set(answer) == {"series", "units", "quantities", "numerics", "outside", "provenance"}
     assert [row["load"] for row in answer["series"]] == pytest.approx([5e7, 170997594.7, 584803547.6, 2e9])
     assert all(set(row) == NUMBERS for row in answer["series"])
     assert set(answer["units"]) == NUMBERS
@@ -406,3 +406,17 @@ def test_ranges_of_loads():
     assert parse_spacing("1um, 2 nm") == (1e-6, 2e-9)
     with pytest.raises(InputError, match="one length above 0 or two"):
         parse_spacing("1um,2um,3um")
+
+
+def test_a_peak_pressure_beyond_linear_elasticity_is_said_for_each_load(tmp_path):
+    """At W = π E* Δ/λ a wave is flat, with the peak 2 W (Westergaard 1939): above 0.3 E* for Δ/λ = 0.05."""
+    wave = np.cos(2 * np.pi * np.arange(64) / 64)
+    np.save(tmp_path / "wave.npy", 0.05 * 64e-6 * np.outer(wave, np.ones(8)))
+    flat = np.pi * 0.05 * 1e9
+    given = (tmp_path / "wave.npy", "--spacing", "1um", "--modulus", "1GPa", "--poisson", "0")
+    answer = stated(given[0], *given[1:], "--loads", f"{0.1 * flat}Pa,{1.0001 * flat}Pa")
+    assert [row["pressure_max"] > 0.3e9 for row in answer["series"]] == [False, True]
+    assert answer["outside"] == [
+        "peak pressure 314.2 MPa exceeds 0.3 E* = 300 MPa, beyond which linear elasticity does not hold"
+    ]
+    assert "at 1 of 2 points: 157.1 MPa" in answer["provenance"]["warnings"][0]
