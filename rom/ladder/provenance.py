@@ -25,6 +25,9 @@ LIBRARY = Path(__file__).parents[2]
 DEFERRED = re.compile(rb'\bdeferred\(\s*"([\w.]+)"')
 """Imports that wait until the first call, see ``roughfilm.contact.foundation.deferred``."""
 
+OWN = Path(__file__).read_bytes()
+"""This file, whose changes make what is kept about others unknown."""
+
 MOST_KNOWN = 4000
 """Number of source files, changed ones counted again, from which on they are parsed anew."""
 
@@ -104,7 +107,7 @@ def _code_of(modules: Sequence[str]) -> str:
             statements[name] = b""
             continue
         text = path.read_bytes()
-        source = hashlib.sha256(text).hexdigest()
+        source = hashlib.sha256(OWN + text).hexdigest()
         if source not in known:
             known[source] = _statements(text)
         of_module, *imports = known[source]
@@ -122,7 +125,7 @@ def _kept_at() -> Path:
 
 @cache
 def _known(place: Path) -> dict[str, list[str]]:
-    """The digest of the statements of source files and what they import, by the digest of each file.
+    """The digest of the statements of source files and what they import, by the digest of each file with ``OWN``.
 
     To parse them all takes half of the CPU time in which a process starts.
     """

@@ -1,5 +1,7 @@
 """Differences are named after the effect they measure, and the Pareto front holds what nothing beats."""
 
+from dataclasses import replace
+
 import pytest
 
 from roughfilm import rom
@@ -78,6 +80,9 @@ def test_errors_carry_the_uncertainty_of_the_reference(scene, results):
     known = {**results, "film": carrying(results["film"], "load_plus", 0.0088)}
     of_load = {d.model: d for d in to_best(scene, MODELS, known) if d.quantity == "load_plus"}
     assert [d.uncertainty for d in of_load.values()] == pytest.approx([0.01, 0.01], rel=1e-2)
+    own = results["reynolds"].quantities
+    unknown = {**own, "load_plus": replace(own["load_plus"], uncertainty=None)}
+    known["reynolds"] = replace(results["reynolds"], quantities=unknown)
     (effect,) = (d for d in effects(scene, MODELS, known) if d.quantity == "load_plus")
     assert effect.uncertainty is None
     known["reynolds"] = carrying(results["reynolds"], "load_plus", 0.0088)
