@@ -131,6 +131,7 @@ def warnings_of(scene: Bearing, curve: DynamicCurve) -> list[str]:
     if unstable:
         warnings.append(
             f"{load}: at {len(unstable)} of {len(curve.points)} speeds a rotor is stable at no mass: even without mass "
-            "its motion grows, as the film takes more energy from the rotation than it dissipates at some frequency"
+            "its motion grows, as the film takes more energy from the rotation than it dissipates at some frequency, "
+            "or in a film without a cavity as much"
         )
     return warnings

@@ -34,6 +34,10 @@ SAME = 0.05
 FASTEST = 100.0
 """Size of the roots of the motion over the rotational speed up to which they are considered."""
 
+ROUND_OFF = 1e-8
+"""Stiffness at the limit of stability over the largest of K up to which it is that of a full film, 0: K is known to
+the tolerance of the equilibrium."""
+
 GROWTH = 1e-9
 """Rate of growth over the rotational speed up to which a motion is taken not to grow."""
 
@@ -49,7 +53,7 @@ class Whirl:
     ----------
     inverse_mass : 1/M of the largest mass M in the bearing at which the rotor is stable, 1/kg; 0 or below if it is
         stable at any mass, infinite if it is stable at none.
-    frequency_squared : square of the frequency of the whirl, rad²/s²; 0 or below without whirl.
+    frequency_squared : square of the frequency of the whirl, rad²/s²; 0 or below without whirl, NaN if it is unknown.
     """
 
     inverse_mass: float
@@ -66,7 +70,8 @@ def rigid_whirl(stiffness: Array, damping: Array) -> Whirl:
         ν² = ((Kxx - k)(Kyy - k) - Kxy Kyx)/(Bxx Byy - Bxy Byx),    M = k/ν².
 
     By the criterion of Routh and Hurwitz, the rotor is stable exactly below this M, at any M if ν² is not positive, and
-    at none if k, det K, det B or the trace of B is not positive.
+    at none if k, det K, det B or the trace of B is not positive. In a film without a cavity K has no symmetric part and
+    k is 0: a mass of 0 whirls at ν, without growth or decay.
 
     Parameters
     ----------
@@ -76,9 +81,11 @@ def rigid_whirl(stiffness: Array, damping: Array) -> Whirl:
     """
     if not _damped(stiffness, damping):
         return Whirl(inverse_mass=math.inf, frequency_squared=math.nan)
-    k = _whirl_stiffness(stiffness, damping)
+    k, smallest = _whirl_stiffness(stiffness, damping), ROUND_OFF * float(np.abs(stiffness).max())
+    if k < -smallest:
+        return Whirl(inverse_mass=math.inf, frequency_squared=math.nan)
     squared = _frequency_squared(stiffness, damping)
-    return Whirl(inverse_mass=squared / k, frequency_squared=squared)
+    return Whirl(inverse_mass=squared / k if k > smallest else math.inf, frequency_squared=squared)
 
 
 def whirl_of(at: At, speed: float, ratios: Array = RATIOS) -> Whirl:
@@ -164,13 +171,8 @@ def slow_up_to(at: At, speed: float, ratios: Array = RATIOS) -> float:
 
 
 def _damped(stiffness: Array, damping: Array) -> bool:
-    """Whether a small mass in the bearing is stable."""
-    return bool(
-        np.linalg.det(damping) > 0
-        and np.trace(damping) > 0
-        and np.linalg.det(stiffness) > 0
-        and _whirl_stiffness(stiffness, damping) > 0
-    )
+    """Whether a small mass in the bearing is stable where k is positive."""
+    return bool(np.linalg.det(damping) > 0 and np.trace(damping) > 0 and np.linalg.det(stiffness) > 0)
 
 
 def _whirl_stiffness(stiffness: Array, damping: Array) -> float:

@@ -25,6 +25,7 @@ from roughfilm.rom.bearing.free.film import free_film
 from roughfilm.rom.bearing.moving.body import Body
 from roughfilm.rom.ladder.model import silent
 from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.words.dynamics import answer_of
 
 GROOVED = {"shape": "lobes", "lobes": 2, "arc": "160 deg", "radius": "50 mm", "clearance": "50 um", "width": "100 mm"}
 PADS = GROOVED | {"lobes": 4, "arc": "70 deg", "first": "-135 deg", "preload": 0.3, "pivot": 0.55, "offset": 0.55}
@@ -179,6 +180,25 @@ def test_uncertainties_cover_the_numbers_on_a_finer_grid(curve):
     point = curve.points[1]
     for name, value in fine.points[0].numbers.items():
         assert abs(value - point.numbers[name]) <= point.uncertainty[name] + 1e-12 * abs(value), name
+
+
+@pytest.mark.parametrize(
+    ("speed", "viscosity", "force"), [("1500 rpm", "100 mPa*s", "20 N"), ("300 rpm", "20 mPa*s", "1 N")]
+)
+def test_a_full_film_has_no_direct_stiffness_whirls_at_half_of_the_speed_and_carries_no_mass(speed, viscosity, force):
+    """The force of a full film is across the displacement: K has no symmetric part, B none but the diagonal."""
+    bore = {"shape": "lobes", "radius": "50 mm", "clearance": "100 um", "width": "30 mm"}
+    oil = {"viscosity": viscosity, "cavitation_pressure": "-100 MPa"}
+    tables = {"geometry": bore, "lubricant": oil, "motion": {"speed": speed}, "load": {"force": force}}
+    bearing = read_scene({"name": "full", "kind": "bearing", **tables})
+    (curve,) = dynamics(bearing, [bearing.motion.speed], [bearing.load_pressure], resolution=32)
+    numbers = curve.points[0].numbers
+    cross = numbers["stiffness_xy"]
+    assert abs(numbers["stiffness_xx"]) < 1e-8 * cross > 0
+    assert numbers["stiffness_yx"] == pytest.approx(-cross, rel=0.05)
+    assert numbers["critical_mass"] == 0
+    assert numbers["whirl_ratio"] == pytest.approx(0.5, rel=0.03)
+    assert answer_of(bearing, curve).startswith("a rigid rotor is stable at no mass at ")
 
 
 def test_a_mass_whose_limit_is_not_known_has_no_uncertainty():
