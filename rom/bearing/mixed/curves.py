@@ -48,9 +48,6 @@ CLOSURE_RATIO = 1.02
 IRRELEVANT = ("name", "motion.speed", "geometry.film", "geometry.eccentricity")
 """Entries of a scene on which the curves do not depend."""
 
-OF_DENSITY = ("lubricant.density",)
-"""The same of a scene without a ram pressure and without orifices."""
-
 
 class OperatingPoint(Protocol):
     """A point of a sweep over speed and load."""
@@ -259,9 +256,7 @@ def curve_inputs(scene: Bearing, wall: Wall | None, resolution: int, **more: Any
     entries = {name: entry for name, entry in scene_entries(scene).items() if name != "load"}
     source = {} if wall is None else wall.source
     settings = {**_flat(entries), **source, **more, "resolution": resolution, "code": code()}
-    by_density = scene.boundary.inlet.ram_factor or any(supply.orifice is not None for supply in scene.supply)
-    by_density = by_density or not scene.lubricant.lacking
-    for name in (*IRRELEVANT, *(() if by_density else OF_DENSITY)):
+    for name in IRRELEVANT:
         settings.pop(name, None)
     if isinstance(scene.geometry, MovingWall):
         load = scene.load or BearingLoad.model_construct()

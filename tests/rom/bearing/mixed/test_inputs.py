@@ -30,9 +30,9 @@ def test_moments_count_for_pads():
     assert digest(PAD, load={"force": "1 kN", "moment_y": "1 N*m"}) != digest(PAD)
 
 
-def test_the_density_counts_where_it_determines_a_flow_or_a_pressure():
+def test_the_density_counts_as_it_determines_flows_and_pressures_and_whether_a_film_is_laminar():
     other = "800 kg/m^3"
-    assert digest(density=other) == digest()
+    assert digest(density=other) != digest()
     orifice = {"supply": [FED | {"orifice": {"diameter": "0.5 mm"}}]}
     assert digest(density=other, **orifice) != digest(**orifice)
     assert digest(PAD, other, {"ram_factor": 1.0}) != digest(PAD, inlet={"ram_factor": 1.0})
