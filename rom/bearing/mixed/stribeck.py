@@ -223,8 +223,7 @@ def stribeck(
         for count, (pressure, points) in enumerate(curves.items()):
             words = f"{speed:.4g} m/s, {pressure * 1e-6:.4g} MPa"
             progress((number + count / len(curves)) / len(ordered), words)
-            before, still_air = done.get((pressure, speed)), 0.0
-            point = before
+            point = before = done.get((pressure, speed))
             cpu = working_time()
             if point is None:
                 try:
@@ -237,9 +236,8 @@ def stribeck(
                     refused[pressure] = error
                     continue
                 point = _with_flash(stribeck_point(state, search, pressure), state.scene)
-                still_air = _in_still_air(state)
             if speed in estimated and not point.uncertainty:
-                point = replace(point, uncertainty=_uncertainty(point, search, coarse, still_air))
+                point = replace(point, uncertainty=_uncertainty(point, search, coarse))
             if point is not before:
                 point = replace(point, cpu_s=point.cpu_s + working_time() - cpu)
                 keep(point)
@@ -309,19 +307,21 @@ def curve_search(
 
 
 def _in_still_air(state: MixedState) -> float:
-    """The heat that a bearing gives off by a heat transfer that is estimated over all its heat; 0 where it is given."""
+    """The heat that a bearing gives off by a heat transfer that is estimated over all its heat; 0 where it is given.
+
+    It is 0 too where a film has no heat, as at rest.
+    """
     found = state.temperatures
     if found is None or not found.estimated:
         return 0.0
-    return found.to_surroundings / (found.to_surroundings + found.to_lubricant)
+    whole = found.to_surroundings + found.to_lubricant
+    return found.to_surroundings / whole if whole else 0.0
 
 
-def _uncertainty(point: StribeckPoint, search: Search, coarse: Search, still_air: float) -> dict[str, float]:
+def _uncertainty(point: StribeckPoint, search: Search, coarse: Search) -> dict[str, float]:
     """The uncertainty of a point from a grid with half as many cells; empty if that grid does not carry the load.
 
-    Parameters
-    ----------
-    still_air : part of the heat that leaves by a heat transfer that is estimated, which may be half or twice as large.
+    A heat transfer that is estimated may be half or twice as large, and so may the part of the rise by it.
     """
     try:
         near = coarse.solved(point.speed, point.pressure, [(point.speed, point.separation)])
@@ -333,7 +333,7 @@ def _uncertainty(point: StribeckPoint, search: Search, coarse: Search, still_air
     found = uncertainties(point, stribeck_point(near, coarse, point.pressure), search, slopes)
     if point.temperature is not None:
         rise = point.temperature + ZERO_CELSIUS - search.scene.lubricant.liquid.temperature
-        found |= {name: found[name] + still_air * abs(rise) for name in TEMPERATURES}
+        found |= {name: found[name] + _in_still_air(near) * abs(rise) for name in TEMPERATURES}
     return found
 
 

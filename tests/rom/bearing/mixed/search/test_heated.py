@@ -1,6 +1,7 @@
 """Stribeck curves whose films are at the temperature at which their heat is balanced."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -118,6 +119,19 @@ def test_spots_in_contact_are_as_hot_as_by_the_model_and_cold_where_nothing_slid
     )
     for name in ("flash_temperature", "flash_temperature_low", "flash_temperature_high"):
         assert getattr(cold.points[1], name) == pytest.approx(film[name].value, rel=1e-3)
+
+
+def test_a_heat_transfer_that_is_estimated_counts_at_rest_and_for_kept_points():
+    """Without any heat nothing depends on it; the bar of a point does not depend on when its film was solved."""
+    scene = scene_of(PAD, **{name: table for name, table in ROUGH.items() if name != "heat"})
+    (curve,) = stribeck(scene, [0.0, 0.2], [3e6], resolution=CELLS)
+    rest, mixed = curve.points
+    assert rest.temperature == pytest.approx(40, abs=1e-3)
+    assert rest.uncertainty["temperature"] == pytest.approx(0, abs=1e-3)
+    assert mixed.uncertainty["temperature"] > 0.5 * (mixed.temperature - 40) > 0
+    kept = [replace(point, uncertainty={}) for point in curve.points]
+    (again,) = stribeck(scene, [0.0, 0.2], [3e6], resolution=CELLS, known=kept)
+    assert again.points[1].uncertainty["temperature"] == pytest.approx(mixed.uncertainty["temperature"], rel=1e-2)
 
 
 def test_the_file_keeps_temperatures(rough, tmp_path: Path):
