@@ -68,13 +68,13 @@ def channel_outside(scene: Bearing, thickness: Array, flow: float, pressure: Arr
     ----------
     scene : the pad.
     thickness : film thickness h along it, m.
-    flow : flow q through it, m²/s; that by pressure is q - uh/2.
+    flow : flow q through it along the sliding, m²/s, negative against it; that by pressure is q - uh/2.
     pressure : pressures above ambient, Pa.
     """
     speed, kinematic = abs(scene.motion.speed), density(scene) / scene.lubricant.viscosity
     numbers = ReynoldsNumbers(
         shear=kinematic * speed * float(thickness.max()),
-        pressure=kinematic * float(np.abs(abs(flow) - speed * thickness / 2).max()),
+        pressure=kinematic * float(np.abs(flow - speed * thickness / 2).max()),
     )
     return (*turbulence(scene, numbers), *gas_as_liquid(scene, float(np.abs(pressure).max())))
 

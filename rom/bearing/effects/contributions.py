@@ -67,7 +67,7 @@ class EffectStudy:
 
     @property
     def outside(self) -> tuple[str, ...]:
-        """The ways in which the film with all effects is outside the range of the model."""
+        """The ways in which the film with all effects is outside the range of the model, with each number and limit."""
         return self.whole.outside
 
     @property

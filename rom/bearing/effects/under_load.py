@@ -16,6 +16,7 @@ from roughfilm.rom.bearing.equilibrium.grids import under_load as equilibria
 from roughfilm.rom.bearing.mixed.contact_load import asperity_load
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.mixed.wall import asperities_of
+from roughfilm.rom.bearing.outside import film_outside
 from roughfilm.rom.bearing.quantities import load_of, nominal_area, scene_positions
 from roughfilm.rom.bearing.roughness import Sinusoid
 from roughfilm.rom.bearing.scene import Bearing
@@ -192,4 +193,5 @@ def under_load(variant: Variant, pressure: float, cells: int, progress: Progress
         unknown=infinite_flows(here.solution),
         balance=found.balance,
         cpu_s=working_time() - cpu,
+        outside=film_outside(here.scene, here.solution),
     )

@@ -16,7 +16,9 @@ from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.advice.expected import with_errors
 from roughfilm.rom.bearing.dynamics.store import write_ross
 from roughfilm.rom.bearing.dynamics.sweep import dynamics
+from roughfilm.rom.bearing.effects.ablation import Variant
 from roughfilm.rom.bearing.effects.analysis import analyse_effects
+from roughfilm.rom.bearing.effects.under_load import under_load
 from roughfilm.rom.bearing.mixed import store
 from roughfilm.rom.bearing.mixed.curves import curve_inputs
 from roughfilm.rom.bearing.mixed.stribeck import stribeck
@@ -150,6 +152,14 @@ def test_the_models_of_openfoam_are_judged_before_and_after_their_run(model):
     assert f"exceeds {PRESSURE_LIMIT:g}" in found
 
 
+def test_a_flow_against_the_sliding_is_driven_by_the_pressure_all_the_more():
+    water = {"viscosity": "1 mPa*s", "density": "1000 kg/m^3"}
+    bearing, thickness = scene({**PAD, "film": "20 um"}, water, speed="10 m/s"), np.full(2, 20e-6)
+    (found,) = channel_outside(bearing, thickness, -1.25e-3, np.zeros(2))
+    assert "1350" in found, "1.25e-3 m2/s back and uh/2 = 1e-4 m2/s carried along, over 1e-6 m2/s"
+    assert channel_outside(bearing, thickness, 1.25e-3, np.zeros(2)) == ()
+
+
 SLOW, FAST = 0.5, 60.0
 """Sliding speeds, m/s, of laminar and turbulent films of water."""
 
@@ -187,6 +197,13 @@ def test_the_effects_of_a_bearing_say_that_it_is_beyond_the_limit():
     for speed, beyond in (("0.5 m/s", False), ("60 m/s", True)):
         study = analyse_effects(scene({**PAD, "width": "80 mm"}, speed=speed), 16, models("bearing")).at_film
         assert bool(study.outside) == beyond
+
+
+@pytest.mark.parametrize(("speed", "pressure", "beyond"), [("0.5 m/s", 500.0, False), ("60 m/s", 5e4, True)])
+def test_the_effects_under_a_load_say_that_the_film_is_beyond_the_limit(speed, pressure, beyond):
+    bearing = scene({**PAD, "width": "80 mm"}, speed=speed)
+    found = under_load(Variant(scene=bearing), pressure, 16).outside
+    assert any("Re = ρuh/η" in one for one in found) == beyond
 
 
 GAS = {"viscosity": "18.5 uPa*s", "cavitation_pressure": "-91192.5 Pa"}
