@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.march.course import Duty
 from roughfilm.rom.bearing.march.series import Series
@@ -88,13 +88,13 @@ def summary_of(duty: Duty, series: Series) -> Summary:
     extremes |= HEATED_EXTREMES if "temperature" in series.units else {}
     for name, (title, column, extreme) in extremes.items():
         quantities[name] = Quantity(value=float(extreme(series[column][inside])), unit=series.units[column])
-        titles[name], between[name] = title, _between(series, series[column], quantities[name].value, first)
+        titles[name], between[name] = title, _between(series, series[column], quantities[name].value, inside)
     if duty.given_path:
         force = np.abs(_film_force(duty, series))
         unit = series.units["film_force_x" if duty.lobes else "film_force"]
         quantities[FORCE] = Quantity(value=float(force[inside].max()), unit=unit)
         titles[FORCE] = "largest force of the film"
-        between[FORCE] = _between(series, force, quantities[FORCE].value, first)
+        between[FORCE] = _between(series, force, quantities[FORCE].value, inside)
     means = {name: title for name, title in MEANS.items() if name in series.units}
     for name in series.units:
         place, _, kind = name.rpartition("_")
@@ -123,13 +123,13 @@ def _film_force(duty: Duty, series: Series) -> Array:
     return series["film_force"]
 
 
-def _between(series: Series, values: Array, extreme: float, first: float) -> float:
+def _between(series: Series, values: Array, extreme: float, inside: Mask) -> float:
     """By how much an extreme of values over the steps may lie beyond them, between the step where it is and the others.
 
     It is the change to the step on the side on which values change less, carried on to the other side: little where
     they are smooth, and what is missed of a jump, as where a cavity closes. 0 at the first and the last step.
     """
-    time, at = series.time, int(np.flatnonzero((values == extreme) & (series.time >= first * (1 - 1e-9)))[0])
+    time, at = series.time, int(np.flatnonzero((values == extreme) & inside)[0])
     if not 0 < at < time.size - 1:
         return 0.0
     before, after = time[at] - time[at - 1], time[at + 1] - time[at]

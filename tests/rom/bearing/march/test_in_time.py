@@ -2,11 +2,14 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from roughfilm.rom.bearing.kind import KIND
 from roughfilm.rom.bearing.march.course import Duty
 from roughfilm.rom.bearing.march.on_path import loads_on_path
+from roughfilm.rom.bearing.march.series import Series
+from roughfilm.rom.bearing.march.summary import summary_of
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.cavitation.solve import solve
 from roughfilm.rom.ladder.scene import read_scene
@@ -125,3 +128,17 @@ def test_speeds_over_time_are_judged_at_the_least_film():
 def test_a_speed_over_time_at_a_given_film_moves_no_wall():
     time, speed = waves(1.0, 5.0, 15.0, "m/s")
     assert KIND.in_time(scene({**PAD, "film": "10 um"}, {"over_time": {"time": time, "speed": speed}}), 0.05) is None
+
+
+def test_an_extreme_at_the_start_is_inside_a_window_that_begins_there_but_for_rounding():
+    end, period = 3 * 0.1, 0.3
+    assert 0 < end - period < 1e-15
+    columns = {"time": "s", "film": "m", "film_min": "m", "pressure_max": "Pa", "cavitated_fraction": "1"}
+    columns["film_force"] = "N"
+    time = np.linspace(0, end, 4)
+    film = 10e-6 + 1e-6 * time
+    rows = np.stack([time, film, film, np.ones(4), np.zeros(4), np.ones(4)], axis=1)
+    series = Series(units=columns, rows=rows, snapshots=(), grid={}, known=0)
+    found = summary_of(Duty(scene=on_path(period)), series)
+    assert found.quantities["film_min"].value == pytest.approx(10e-6, rel=1e-12)
+    assert found.between["film_min"] == 0
