@@ -331,7 +331,7 @@ def robustly_balanced(
         place = max(place / SCAN_RATIO, at.film.closest)
     if failure is not None:
         found = {separation: one + at.film.contact_load(separation) for separation, one in at.loads.items()}
-        if isinstance(failure, InputError) and min(found.values()) < load < found[max(found)]:
+        if found and isinstance(failure, InputError) and min(found.values()) < load < found[max(found)]:
             raise InputError(
                 f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s it is carried only where "
                 "the load of the film grows with its thickness, so that no equilibrium is stable; raise the load, or "

@@ -64,10 +64,9 @@ def estimate(scene: Bearing) -> tuple[float, float]:
             if touching > 0:
                 return touching, at.steepness
             failure = error
-            carried = at.loads.values()
-            if isinstance(error, InputError) and (
-                pressure * films.area > CLEARLY * max(carried) or pressure * films.area < min(carried) / CLEARLY
-            ):
+            load, carried = pressure * films.area, at.loads.values()
+            near = not carried or min(carried) / CLEARLY <= load <= CLEARLY * max(carried)
+            if isinstance(error, InputError) and not near:
                 break
         else:
             return max(film, touching), steepness_of(at, film)

@@ -2,8 +2,9 @@
 
 import pytest
 
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.equilibrium import estimate
+from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, robustly_balanced
 from roughfilm.rom.bearing.equilibrium.expected import expected_film
 from roughfilm.rom.ladder.scene import read_scene
 
@@ -51,3 +52,33 @@ def test_a_load_near_the_largest_is_sought_on_the_finer_grid_too(grids):
     with pytest.raises(InputError, match="load: got"):
         expected_film(pad(FED, "2.02 MPa", boundary=HIGH | {"sides": {"low": "2 MPa", "high": "2 MPa"}}))
     assert grids == list(estimate.CELLS[False])
+
+
+class Unsolved:
+    """A bearing of which no film is solved: the first is refused, others do not converge."""
+
+    area = widest = touching = 1.0
+    closest = 0.5
+    remedy = ""
+
+    def __init__(self):
+        self.error = InputError("factors: unknown")
+
+    def at(self, _separation, _speed, _start):
+        error, self.error = self.error, ConvergenceError("film: does not converge")
+        raise error
+
+    def contact_load(self, _separation):
+        return 0.0
+
+
+def test_a_search_without_any_solved_film_ends_with_the_reason(monkeypatch):
+    with pytest.raises(InputError, match="factors: unknown"):
+        robustly_balanced(FilmsAtSpeed(film=Unsolved(), speed=1.0), 1.0, tolerance=1e-6)
+
+    def refused(*_arguments, **_options):
+        raise InputError("factors: unknown")
+
+    monkeypatch.setattr(estimate, "robustly_balanced", refused)
+    with pytest.raises(InputError, match="factors: unknown"):
+        expected_film(pad(WEDGE, "0.1 MPa"))
