@@ -212,6 +212,7 @@ def exchange_of(
     flow out at the end, as far as the inlet takes it; of films with gaps between them the same in each row of nodes of
     each gap (:func:`roughfilm.rom.temperature.dissipation.passed_on`); of a film without an end the least flow along
     anywhere, and behind supplies ``heat.carried_over`` of it. Of a single pad nothing recirculates.
+    The conductance is None where the scene gives no heat transfer or no area.
 
     Parameters
     ----------
