@@ -16,6 +16,7 @@ from roughfilm.contact.preparation.recipe import AS_IT_IS, Recipe, read_recipe, 
 from roughfilm.contact.registration.grids import Sampler, common_spacing, overlap
 from roughfilm.contact.registration.register import Registration, register
 from roughfilm.contact.registration.wear import wear_of
+from roughfilm.contact.surfaces.plausibility import ROUNDING
 from roughfilm.contact.surfaces.surface import Surface
 
 Operation = Literal["difference", "sum"]
@@ -106,7 +107,8 @@ def difference(
     registration = _registered(one, two, shift)
     first, second = _aligned(one, two, registration.shift)
     valid = first.valid & second.valid
-    wear = wear_of(first.heights - second.heights, valid, unworn_only=level == "unworn")
+    rounding = ROUNDING * max(float(np.abs(surface.heights[surface.valid]).max()) for surface in (before, after))
+    wear = wear_of(first.heights - second.heights, valid, rounding=rounding, unworn_only=level == "unworn")
     quantities = {
         "worn_volume_per_area": Quantity(value=wear.volume, unit="m", uncertainty=wear.volume_uncertainty),
         "largest_depth": Quantity(value=wear.largest, unit="m", uncertainty=wear.largest_uncertainty),

@@ -58,7 +58,7 @@ class Wear:
     warnings: tuple[str, ...]
 
 
-def wear_of(difference: Array, valid: Mask, *, unworn_only: bool = True) -> Wear:
+def wear_of(difference: Array, valid: Mask, *, rounding: float = 0.0, unworn_only: bool = True) -> Wear:
     """Volume and depth of a difference of two registered measurements.
 
     The level of the difference is a plane c₀ + c₁ x + c₂ y that is fitted to the unworn points: those that belong to no
@@ -78,6 +78,7 @@ def wear_of(difference: Array, valid: Mask, *, unworn_only: bool = True) -> Wear
     ----------
     difference : before − after, shape (nx, ny), m.
     valid : mask of the points that both measurements have.
+    rounding : distance from the median, m, up to which a difference is rounding and counts as none.
     unworn_only : whether the plane is fitted to unworn points only, or to all.
 
     Raises
@@ -87,11 +88,13 @@ def wear_of(difference: Array, valid: Mask, *, unworn_only: bool = True) -> Wear
     """
     if valid.sum() < 100:
         raise InputError(f"difference: {int(valid.sum())} common points are valid; 100 are needed")
+    difference = difference - np.median(difference[valid])
+    difference[np.abs(difference) <= rounding] = 0.0
     x, y = (np.linspace(-1, 1, n) for n in difference.shape)
     plane = [np.ones(valid.shape), np.broadcast_to(x[:, None], valid.shape), np.broadcast_to(y, valid.shape)]
     design = np.stack([column[valid] for column in plane], axis=-1)
     weights = _filtered(valid.astype(np.float64))
-    start = np.median(difference[valid]) if unworn_only else difference[valid].mean()
+    start = 0.0 if unworn_only else difference[valid].mean()
     smooth = _filtered(np.where(valid, difference - start, 0.0)) / np.maximum(weights, 1e-12) + start
     unworn, worn, warnings = valid.copy(), np.zeros_like(valid), []
     for _ in range(MAX_ITERATIONS):

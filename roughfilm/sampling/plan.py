@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.ranges import in_range, whole_in_range
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.parameters.autocorrelation import autocorrelation, decay_lengths
-from roughfilm.contact.preparation.prepare import Levelled, Prepared, cell_of, level
+from roughfilm.contact.preparation.prepare import MAX_INVALID_FRACTION, Levelled, Prepared, cell_of, level
 from roughfilm.contact.preparation.recipe import Recipe, recipe_entries
 from roughfilm.contact.preparation.window import Window
 from roughfilm.contact.surfaces.surface import Surface
@@ -40,6 +40,9 @@ SIZE_RATIOS = (2, 4)
 
 DECAY_LENGTHS = 5.0
 """Side of a window over the decay length Sal below which a warning is given."""
+
+MAX_FILLED, FILLED_OVER_MEAN = 0.25, 1.25
+"""Fraction of invalid points above which a place is left out, and the same over that of the measurement, if larger."""
 
 SEEDS_APART = 100_000
 """Difference of the first seeds of two sizes."""
@@ -150,7 +153,8 @@ def _of_measurement(
     groups: list[Group] = []
     done = 0
     for shape in shapes:
-        places = window_places(surface.shape, shape, count)
+        places, left_out = _with_valid_points(levelled, window_places(surface.shape, shape, count))
+        warnings += left_out
         cells, of_cells = [], []
         for window in places:
             progress(done / (count * len(shapes)), f"preparing window {done + 1} of {count * len(shapes)}")
@@ -177,6 +181,20 @@ def _of_measurement(
         decay=(found.shortest, found.longest),
         warnings=(*levelled.warnings, *warnings),
     )
+
+
+def _with_valid_points(levelled: Levelled, places: Sequence[Window]) -> tuple[tuple[Window, ...], list[str]]:
+    """The places that have enough valid points, and a sentence with the number of those that are left out."""
+    invalid = levelled.trusted.invalid
+    most = min(max(MAX_FILLED, FILLED_OVER_MEAN * float(invalid.mean())), MAX_INVALID_FRACTION)
+    kept = tuple(window for window in places if invalid[window.slices].mean() <= most)
+    if len(kept) == len(places):
+        return kept, []
+    nx, ny = places[0].shape
+    many = f"of {len(places)} places for windows of {nx} x {ny} pixels have more than {100 * most:.0f} % invalid points"
+    if not kept:
+        raise InputError(f"windows: {len(places)} {many}; take smaller windows or measure again")
+    return kept, [f"{len(places) - len(kept)} {many} and are left out"]
 
 
 def _with_one_edge(levelled: Levelled, recipe: Recipe, smallest: tuple[int, int]) -> Recipe:

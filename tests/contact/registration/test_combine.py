@@ -71,6 +71,22 @@ def test_two_measurements_of_one_place_differ_by_noise_alone():
     assert combined.warnings[-1].startswith("no place differs by more than noise")
 
 
+@pytest.mark.parametrize("offset", [0.0, 1e-3])
+@pytest.mark.parametrize("short", [0.15, 1.0])
+def test_a_measurement_against_itself_has_no_wear(offset, short):
+    """Equal heights, also with another zero of the instrument, differ by rounding, which is no wear and no noise."""
+    for seed in range(4):
+        heights = 1e-6 * rough(np.random.default_rng(seed), (64, 60), short)[0]
+        before, after = (Surface(heights=z, spacing=(1e-6, 1e-6)) for z in (heights, heights + offset))
+        found = difference(before, after)
+        sizes = {name: one.value for name, one in found.quantities.items() if not name.startswith("shift")}
+        assert sizes.pop("correlation") == pytest.approx(1, abs=1e-12)
+        assert sizes.pop("common_fraction") == 1
+        assert set(sizes.values()) == {0.0}
+        assert not found.surface.heights.any()
+        assert "no place differs by more than noise" in found.warnings[-1]
+
+
 def test_a_rotation_that_spoils_the_difference_warns():
     """By 0.4° a difference keeps the scar; by 4° the unworn points differ by half of their height."""
     rng = np.random.default_rng(962)

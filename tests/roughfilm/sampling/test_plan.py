@@ -47,6 +47,31 @@ def test_warnings_of_the_measurement_stand_once_and_those_of_windows_are_counted
     assert [one.split(" of ", 1)[1][:20] for one in plan.warnings] == ["6 windows: periodici"]
 
 
+def test_places_in_a_hole_are_left_out_and_counted(measured):
+    """With a quarter of the surface missing, the places whose pixels are mostly missing are counted one by one."""
+    invalid = np.zeros(measured.shape, dtype=bool)
+    invalid[:100, :72] = True
+    holed = measured.with_heights(np.where(invalid, 0.0, measured.heights), invalid=invalid)
+    whole, plan = (plan_of(one, sizes=[], set_=["form=none"]) for one in (measured, holed))
+    lacks = [invalid[place.slices].mean() for place in whole.groups[0].windows]
+    kept = tuple(place for place, part in zip(whole.groups[0].windows, lacks, strict=True) if part < 0.25)
+    assert 0 < len(kept) < 6
+    assert not any(0.2 < part < 0.33 for part in lacks)
+    assert plan.groups[0].windows == kept
+    assert len(plan.groups[0].cells) == len(kept)
+    assert any(one.startswith(f"{6 - len(kept)} of 6 places for windows of 48 x 48 pixels") for one in plan.warnings)
+
+
+def test_a_surface_without_a_place_of_valid_points_is_refused_and_one_with_scattered_gaps_is_not(measured):
+    scattered = np.random.default_rng(1).random(measured.shape) < 0.4
+    kept = plan_of(measured.with_heights(measured.heights, invalid=scattered), sizes=[])
+    assert len(kept.groups[0].windows) == 6
+    stripes = np.ones(measured.shape, dtype=bool)
+    stripes[96:104] = False
+    with pytest.raises(InputError, match=r"window|invalid"):
+        plan_of(measured.with_heights(np.where(stripes, 0.0, measured.heights), invalid=stripes), sizes=[])
+
+
 def test_a_window_is_prepared_as_the_recipe_prepares_it(measured):
     """The same cell as that of `prepare` with this window and the edges that were chosen for the whole."""
     plan = plan_of(measured, set_=["smoothing=1"])
