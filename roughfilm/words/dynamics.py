@@ -110,7 +110,7 @@ def heat_warnings(scene: Bearing, curves: Sequence[DynamicCurve]) -> list[str]:
     if not found:
         return lubricant.left_out_heat
     transfers = [point.estimated_heat_transfer for point in points]
-    return [*lubricant.hot(max(found)), *missing_in_series(transfers, "speeds", contained=True)]
+    return [*lubricant.hot(max(found)), *missing_in_series(transfers, "speeds")]
 
 
 def warnings_of(scene: Bearing, curve: DynamicCurve) -> list[str]:

@@ -12,7 +12,7 @@ from roughfilm.rom.bearing.march.numbers import Observer
 from roughfilm.rom.bearing.quantities import boundary_flows
 from roughfilm.rom.bearing.supply.quantities import supply_values
 from roughfilm.rom.bearing.thermal.balanced import balanced
-from roughfilm.rom.bearing.thermal.exchange import coldest, exchange_of, temperatures
+from roughfilm.rom.bearing.thermal.exchange import Temperatures, coldest, exchange_of, temperatures
 from roughfilm.rom.cavitation.motion.coupled import Instant
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.motion.march import Moving
@@ -62,7 +62,19 @@ class HeatedMarch:
         return replace(free, whole=self.film(free.whole, temperature), solved=self.film(free.solved, temperature))
 
     def balanced(self, time: float, instant: Instant, velocity: Array, temperature: float, *, turned: bool) -> float:
-        """The temperature T_eq, K, that the heat of a film brings about.
+        """The temperature T_eq, K, that the heat of a film brings about, as ``temperatures`` gives it."""
+        return self.temperatures(time, instant, velocity, temperature, turned=turned).effective
+
+    def estimated(self, moving: Moving) -> float:
+        """The heat transfer to the surroundings that is estimated at a step, W/K; 0 where none is."""
+        now = moving.now
+        found = self.temperatures(now.time, moving.instant, now.velocity, moving.solved_at, turned=moving.turned)
+        return found.estimated
+
+    def temperatures(
+        self, time: float, instant: Instant, velocity: Array, temperature: float, *, turned: bool
+    ) -> Temperatures:
+        """The temperatures that the heat of a film brings about.
 
         Parameters
         ----------
@@ -90,7 +102,7 @@ class HeatedMarch:
         power = seen.power(time, instant, velocity, temperature)
         quantities[f"power_loss{per}"] = Quantity(value=power, unit="W/m" if wide else "W")
         exchange = exchange_of(scene, solution, quantities, self.liquid.temperature)
-        return temperatures(exchange, self.liquid).effective
+        return temperatures(exchange, self.liquid)
 
     def slope(self, balanced: float, temperature: float) -> float:
         """About dT_eq/dT where the film is at a temperature, K: that of a rise proportional to the viscosity."""

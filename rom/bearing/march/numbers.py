@@ -83,7 +83,7 @@ class Observer:
         units |= {"volume": volume, "volume_rate": flow, "flow_imbalance": "1"}
         units |= {"cavitated_fraction": "1", **dict.fromkeys(self.reynolds, "1")}
         if self.heated:
-            units |= {"temperature": "degC", "balanced_temperature": "degC"}
+            units |= {"temperature": "degC", "balanced_temperature": "degC", "estimated_heat_transfer": "W/K"}
         return units | {
             "step": "s",
             "order": "1",
@@ -171,11 +171,11 @@ class Observer:
                     names |= {place, f"side_flow_{side}"}
         return frozenset(names)
 
-    def row(self, moving: Moving) -> Array:
-        """The numbers of a step, in the order of ``units``."""
-        return (self._back if moving.turned else self)._row(moving)
+    def row(self, moving: Moving, estimated: float = 0.0) -> Array:
+        """The numbers of a step, in the order of ``units``, with the heat transfer that is estimated, W/K."""
+        return (self._back if moving.turned else self)._row(moving, estimated)
 
-    def _row(self, moving: Moving) -> Array:
+    def _row(self, moving: Moving, estimated: float) -> Array:
         instant, film, time = moving.instant, self.film.solved, moving.now.time
         wall, speed = self.film.wall, self.duty.speed(time)
         velocity, scale = moving.now.velocity, np.where(wall.turns, 1.0, wall.unit[0])
@@ -199,7 +199,7 @@ class Observer:
         numbers = (found.shear, found.pressure, found.clearance)[: len(self.reynolds)]
         values += [stored, rate, imbalance, cavitated, *numbers]
         if self.heated:
-            values += [moving.now.temperature - ZERO_CELSIUS, moving.balanced - ZERO_CELSIUS]
+            values += [moving.now.temperature - ZERO_CELSIUS, moving.balanced - ZERO_CELSIUS, estimated]
         values += [moving.step, moving.order, moving.error]
         return np.array([*values, self._residual(instant), instant.force_residual, instant.iterations], dtype=float)
 

@@ -151,7 +151,7 @@ def run(
         first = Snapshot(time=moving.now.time, fields=observer.fields(moving))
         chunks.append(
             Chunk(
-                rows=observer.row(moving)[None],
+                rows=_row(observer, warming, moving)[None],
                 snapshots=(first,) if numerics.field_times else (),
                 state=saved(moving),
             )
@@ -203,7 +203,7 @@ def _chunks(
 
     try:
         for last in steps:
-            rows.append(observer.row(last))
+            rows.append(_row(observer, warming, last))
             if left and last.now.time >= left[0] * (1 - 1e-12):
                 snapshots.append(Snapshot(time=last.now.time, fields=observer.fields(last)))
                 left = [time for time in left if time > last.now.time * (1 + 1e-12)]
@@ -217,6 +217,11 @@ def _chunks(
         raise
     if rows:
         yield chunk()
+
+
+def _row(observer: Observer, warming: HeatedMarch | None, moving: Moving) -> Array:
+    """The numbers of a step."""
+    return observer.row(moving) if warming is None else observer.row(moving, warming.estimated(moving))
 
 
 def closest_of(film: FreeFilm) -> float:

@@ -22,6 +22,7 @@ from roughfilm.rom.bearing.march.store import finish, keeper, kept
 from roughfilm.rom.bearing.march.summary import FORCE, Summary, apart, lengths_of, path_unit, summary_of
 from roughfilm.rom.bearing.outside import ReynoldsNumbers, gas_as_liquid, turbulence
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.leading import missing_in_series
 from roughfilm.rom.cavitation.solve import FIRST_COARSENING
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.ladder.provenance import code
@@ -241,6 +242,9 @@ def march_bearing(
                 )
     if "temperature" in series.units:
         warnings += scene.lubricant.hot(float(series["temperature"].max()) + ZERO_CELSIUS)
+        warnings += missing_in_series(
+            series["estimated_heat_transfer"].tolist(), "steps", "the uncertainty does not contain"
+        )
     infinite = Observer(duty=duty, film=film_at(duty, cells, walls_of(duty.scene))).infinite_flows
     if infinite:
         quantities |= {

@@ -37,6 +37,7 @@ UNITS = {
     "cpu_s": "s",
     "temperature": "degC",
     "outlet_temperature": "degC",
+    "estimated_heat_transfer": "W/K",
     **dict.fromkeys(FLASH, "K"),
 }
 """Units of the numbers of a point; all others are dimensionless."""
@@ -44,7 +45,7 @@ UNITS = {
 NUMBERS = tuple(entry.name for entry in fields(StribeckPoint) if entry.type is float)
 """The numbers that every point has."""
 
-OF_SOME = (*TEMPERATURES, *FLASH)
+OF_SOME = (*TEMPERATURES, *FLASH, "estimated_heat_transfer")
 """The numbers of points of some scenes alone; flash temperatures are those of points with contact alone."""
 
 SCATTER = ("scatter", "window_low", "window_high")

@@ -92,6 +92,8 @@ class StribeckPoint:
     cavitated_fraction : cavitated fraction of the film.
     temperature : effective temperature of the film by its heat balance, °C; None where the scene has no temperature.
     outlet_temperature : temperature of the lubricant that leaves, °C; None where the scene has no temperature.
+    estimated_heat_transfer : heat transfer to the surroundings that is estimated, as the scene gives none, W/K (W/(m K)
+        if infinitely wide); None where the scene has no temperature, 0 where the lubricant takes away more.
     flash_temperature, flash_temperature_low, flash_temperature_high : estimate of how much hotter the spots in contact
         are than the walls at the largest contact pressure, and its range, K; None without ``asperities.solid_heat`` and
         where nothing touches.
@@ -124,6 +126,7 @@ class StribeckPoint:
     cpu_s: float
     temperature: float | None = None
     outlet_temperature: float | None = None
+    estimated_heat_transfer: float | None = None
     flash_temperature: float | None = None
     flash_temperature_low: float | None = None
     flash_temperature_high: float | None = None
@@ -372,6 +375,7 @@ def stribeck_point(state: MixedState, search: Search, pressure: float) -> Stribe
         cpu_s=0.0,
         temperature=None if heated is None else heated.effective - ZERO_CELSIUS,
         outlet_temperature=None if heated is None else heated.outlet - ZERO_CELSIUS,
+        estimated_heat_transfer=None if heated is None else heated.estimated,
         outside=(
             *film_outside(state.scene, state.solution),
             *([] if heated is None else search.scene.lubricant.beyond(heated.effective, heated.effective)),

@@ -215,7 +215,7 @@ def _mean_point(own: Sequence[StribeckPoint], independent: float) -> StribeckPoi
     """The mean of the points of the windows at one load and speed, with their scatter."""
     numbers = [entry.name for entry in fields(StribeckPoint) if entry.type is float]
     means: dict[str, Any] = {name: float(np.mean([getattr(point, name) for point in own])) for name in numbers}
-    means |= {name: float(np.mean([getattr(point, name) for point in own])) for name in _heated(own)}
+    means |= {name: float(np.mean([getattr(point, name) for point in own])) for name in (*_heated(own), *_cooled(own))}
     averages = _averages(own, independent)
     uncertainty = {name: one.uncertainty for name, one in averages.items() if one.uncertainty is not None}
     outside = tuple(dict.fromkeys(reason for point in own for reason in point.outside))
@@ -234,6 +234,11 @@ def _averages(own: Sequence[StribeckPoint], independent: float) -> dict[str, Win
 def _heated(own: Sequence[StribeckPoint]) -> tuple[str, ...]:
     """The names of the temperatures of points that have them."""
     return TEMPERATURES if all(point.temperature is not None for point in own) else ()
+
+
+def _cooled(own: Sequence[StribeckPoint]) -> tuple[str, ...]:
+    """The name of the heat transfer that is estimated, of points that have a temperature."""
+    return ("estimated_heat_transfer",) if _heated(own) else ()
 
 
 def _average(values: Sequence[float], uncertainties: Sequence[float | None], independent: float) -> WindowAverage:

@@ -21,6 +21,9 @@ NOTABLE = 0.2
 
 STILL_AIR = f"{IN_A_MACHINE:g} W/(m² K) over the nominal area, as of a bearing in still air (DIN 31652)"
 
+CONTAINED = "the uncertainty contains"
+"""How the uncertainty takes an estimated heat transfer, unless otherwise said."""
+
 
 def leading_input(
     scene: Bearing,
@@ -56,7 +59,7 @@ def leading_input(
         still = f"{STILL_AIR}, {IN_A_MACHINE * exchange.area:.2g} {unit}"
         if insulated:
             return (f"temperature: {little}, less than {still}, but the walls take no heat; take heat_balance",)
-        return (_missing("", f"{little} only", still, contained=True),)
+        return (_missing("", f"{little} only", still, CONTAINED),)
     viscosity, slope = (float(one[0]) for one in liquid.viscosity(np.array([temperature])))
     sensitivity = -slope / viscosity
     follows = 1 + max(sensitivity * (temperature - liquid.temperature), 0.0)
@@ -73,27 +76,26 @@ def leading_input(
     return (f"temperature: it depends most on {words}, the film is about {abs(change):.2g} K {direction}, {lubricant}",)
 
 
-def missing_in_series(transfers: Sequence[float], places: str, *, contained: bool) -> tuple[str, ...]:
+def missing_in_series(transfers: Sequence[float], places: str, contained: str = CONTAINED) -> tuple[str, ...]:
     """The warning on the points of a series at which heat transfer is estimated as none is given; () without any.
 
     Parameters
     ----------
     transfers : heat transfer to the surroundings that is estimated at each point, W/K; 0 where none is.
     places : the points in words, such as "speeds".
-    contained : whether the uncertainty of the temperature contains a factor of two of it.
+    contained : whether the uncertainties contain a factor of two of it, in words: "the uncertainty contains".
     """
     some = sum(1 for one in transfers if one)
     where = f"at {some} of {len(transfers)} {places} "
     little = "the flow of new lubricant takes away less"
-    return (_missing(where, little, STILL_AIR, contained=contained),) if some else ()
+    return (_missing(where, little, STILL_AIR, contained),) if some else ()
 
 
-def _missing(where: str, little: str, still: str, *, contained: bool) -> str:
+def _missing(where: str, little: str, still: str, contained: str) -> str:
     """That a temperature depends on a heat transfer that is missing, and by how much the uncertainty takes it."""
-    has = "contains" if contained else "does not contain"
     return (
         f"temperature: {where}it depends most on heat.heat_transfer and heat.area, which are missing: {little}, so "
-        f"that the bearing gives off {still}; the uncertainty {has} a factor of two of it"
+        f"that the bearing gives off {still}; {contained} a factor of two of it"
     )
 
 

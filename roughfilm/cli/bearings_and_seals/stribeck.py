@@ -27,6 +27,7 @@ from roughfilm.rom.bearing.mixed.stribeck import (
     StribeckPoint,
 )
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.leading import missing_in_series
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
 from roughfilm.sampling.cells import Cells, place_of, read_cells, scenes_of
@@ -273,6 +274,8 @@ def curve_entries(
         warnings.append("asperities.solid_heat: flash temperatures are left out over windows; take one surface")
     if heated := [point.temperature + ZERO_CELSIUS for point in points if point.temperature is not None]:
         warnings += scene.lubricant.hot(max(heated))
+        transfers = [point.estimated_heat_transfer or 0.0 for point in points]
+        warnings += missing_in_series(transfers, "points", "the uncertainty of the temperatures alone contains")
     return {
         "curves": [
             {

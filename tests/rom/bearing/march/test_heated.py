@@ -57,6 +57,24 @@ def test_a_start_from_cold_with_constant_friction_is_an_exponential():
     assert math.log2(errors[1] / errors[2]) > 1.7
 
 
+def test_steps_whose_heat_transfer_is_estimated_are_said_once_with_what_the_uncertainty_lacks():
+    """Petroff's friction of cold oil goes to the surroundings by 300 W/(m² K) over diameter times width."""
+    speed, area = 1.0, 50e-3 * 40e-3
+    still = {"sides": {"low": "0.1 MPa", "high": "0.1 MPa"}}
+    place = BORE | {"eccentricity": [0.0, 0.0]}
+    march = marched(place, end=TAU, steps=4, speed=f"{speed} m/s", heat=SLOW, boundary=still)
+    rise = 2 * math.pi * 0.03 * speed**2 * 25e-3 * 40e-3 / 30e-6 / (300 * area)
+    assert march["balanced_temperature"][0] == pytest.approx(COLD + rise, rel=1e-6)
+    assert march["estimated_heat_transfer"] == pytest.approx(300 * area, rel=1e-6)
+    (warning,) = [one for one in march.warnings if "heat.heat_transfer and heat.area" in one]
+    assert warning.startswith(f"temperature: at {march.time.size} of {march.time.size} steps ")
+    assert warning.endswith("; the uncertainty does not contain a factor of two of it")
+    cooled = SLOW | {"heat_transfer": "300 W/(m^2*K)", "area": "20 cm^2"}
+    given = marched(place, end=TAU, steps=4, speed=f"{speed} m/s", heat=cooled, boundary=still)
+    assert not any("heat.area" in one for one in given.warnings)
+    assert given["temperature"] == pytest.approx(march["temperature"], rel=1e-9)
+
+
 def test_a_given_film_warms_as_its_equation_says():
     """A concentric shaft gives Petroff's friction P to the surroundings: τ dT/dt = T0 + P(T)/(α A) - T."""
     heat = SLOW | {"heat_transfer": "20 W/(m^2*K)", "area": "0.1 m^2", "surroundings": f"{COLD} degC"}

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from roughfilm.cli.bearings_and_seals.stribeck import curve_entries
 from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.mixed.curves import curve_inputs
@@ -66,6 +67,21 @@ def test_a_point_is_the_film_of_heat_balance(geometry):
     assert point.friction == pytest.approx(result["friction"].value, rel=1e-4)
     assert point.temperature > 40.5
     assert 0 < point.uncertainty["temperature"] < point.temperature - 40
+
+
+def test_points_whose_heat_transfer_is_estimated_are_said_once():
+    """At 0.05 m/s what sliding carries, u c B/2 at most, takes less away than 300 W/(m² K) over 2RB; not at 8 m/s."""
+    scene, speeds = scene_of(JOURNAL), (0.05, 8.0)
+    curves = stribeck(scene, speeds, [1e5], resolution=CELLS)
+    slow, fast = curves[0].points
+    still = 300 * 50e-3 * 40e-3
+    assert still - 870 * 2000 * 0.05 * 30e-6 * 40e-3 < slow.estimated_heat_transfer <= still
+    assert fast.estimated_heat_transfer == 0
+    entries = curve_entries(scene, curves, None, speeds)
+    (warning,) = [one for one in entries["provenance"]["warnings"] if "heat.heat_transfer and heat.area" in one]
+    assert warning.startswith("temperature: at 1 of 2 points ")
+    assert warning.endswith("; the uncertainty of the temperatures alone contains a factor of two of it")
+    assert entries["units"]["estimated_heat_transfer"] == "W/K"
 
 
 def test_heat_lowers_friction_and_film_at_high_speeds_and_leaves_low_ones():
