@@ -139,7 +139,7 @@ class CaseModel(Model[SceneT], Generic[SceneT, RunT]):
         return self.cases.kept_run(directory)
 
     def read(self, scene: SceneT, directory: Path, run: RunT) -> Result:
-        """Read the result of a case of this scene that was run.
+        """Read the result of a case of this scene that was run, with all ways in which it is outside the range.
 
         Raises
         ------
@@ -149,7 +149,7 @@ class CaseModel(Model[SceneT], Generic[SceneT, RunT]):
             If the directory holds no finished fields, or a number of the result is not finite.
         """
         with finite_arithmetic(self.name):
-            return with_finite_numbers(self.cases.read(self, scene, directory, run))
+            return self.bounded(scene, with_finite_numbers(self.cases.read(self, scene, directory, run)))
 
 
 def openfoam_model(

@@ -8,8 +8,8 @@ import numpy as np
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.corners import unknown_by_infinite_flows
 from roughfilm.rom.bearing.quantities import EXACT, scene_positions
-from roughfilm.rom.bearing.totals.rounding import IMBALANCE_FACTOR
 from roughfilm.rom.cavitation.balance import FILM
+from roughfilm.rom.cavitation.evaluation.flows import IMBALANCE_FACTOR
 from roughfilm.rom.cavitation.evaluation.fronts import front_uncertainties
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_uncertainty
 from roughfilm.rom.cavitation.solve import Solution

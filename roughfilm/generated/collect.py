@@ -220,7 +220,7 @@ def _judged(
     """
     model = job.setting.model
     assert isinstance(model, CaseModel)
-    result = model.bounded(job.scene, model.read(job.scene, directory, model.kept_run(directory)))
+    result = model.read(job.scene, directory, model.kept_run(directory))
     if (code := exit_code(directory)) != "0":
         raise failure(f"Allrun ended with the exit code {code:.20}; see its logs, and run the case again", "")
     known = digests_at_end(directory)

@@ -21,8 +21,8 @@ from roughfilm.rom.bearing.quantities import FILM_OUTPUTS, Outputs
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import thinning
 from roughfilm.rom.bearing.thermal.heat_balance import Heated
-from roughfilm.rom.bearing.totals.rounding import IMBALANCE_FACTOR
 from roughfilm.rom.bearing.warnings import scene_warnings
+from roughfilm.rom.cavitation.evaluation.flows import IMBALANCE_FACTOR
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty, grid_warnings
 from roughfilm.rom.cavitation.problem import Problem
 from roughfilm.rom.cavitation.residual import RESIDUAL_TOLERANCE

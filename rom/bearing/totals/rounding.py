@@ -8,12 +8,9 @@ import numpy as np
 from roughfilm.contact.foundation.rounding import round_off
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.cavitation.evaluation.flows import flow_along
+from roughfilm.rom.cavitation.evaluation.flows import IMBALANCE_FACTOR, flow_along
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.result import beyond_round_off
-
-IMBALANCE_FACTOR = 10.0
-"""Relative error of a quantity over the relative error of the flow along the film."""
 
 NO_LOAD = "the load is 0 within the round-off of its parts; the numbers that are ratios to it are left out"
 """The warning of a film without a load."""

@@ -5,6 +5,9 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.cavitation.solve import Solution
 
+IMBALANCE_FACTOR = 10.0
+"""Relative error of a quantity over the relative error of the flow along the film."""
+
 
 def flow_along(solution: Solution) -> Array:
     """The flow through the faces towards i + 1 at cavitation density, m³/s (m²/s if wide), shape (nx, ny)."""

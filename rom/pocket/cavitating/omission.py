@@ -19,6 +19,7 @@ from roughfilm.rom.pocket.models.film_slope import MODEL as FILM_SLOPE
 from roughfilm.rom.pocket.models.inertial_reynolds import MODEL as INERTIAL_REYNOLDS
 from roughfilm.rom.pocket.models.reynolds import MODEL as REYNOLDS
 from roughfilm.rom.pocket.models.reynolds_cavitating import MODEL as REYNOLDS_CAVITATING
+from roughfilm.rom.pocket.plan.grid import fewest_columns
 from roughfilm.rom.pocket.scene import TITLES, Pocket
 from roughfilm.rom.pocket.validity.numbers import numbers
 from roughfilm.rom.pocket.validity.warnings import UNKNOWN_ERROR, error_of_lowest, rupture_words
@@ -177,7 +178,10 @@ def _films(scene: Pocket) -> _Films:
     if it ruptures over grooves, one with all of inertia takes its place. The film without inertia need not meet its
     tolerance.
     """
-    reynolds = _by(REYNOLDS, scene) or REYNOLDS.solve(scene, Request(resolution=REYNOLDS.resolution_of(scene)))
+    reynolds = _by(REYNOLDS, scene)
+    if reynolds is None:
+        columns = max(REYNOLDS.resolution_of(scene), _fewest(scene))
+        reynolds = REYNOLDS.solve(scene, Request(resolution=columns))
     limit = scene.cavitation_pressure / scene.pressure_unit * scene.plus_factor
     falls = reynolds.quantities[LOWEST].value < limit
     films = _Films(
@@ -205,8 +209,16 @@ def _error_of_lowest(scene: Pocket, model: Model[Pocket], result: Result) -> flo
     return (UNKNOWN_ERROR if by_laws is None else by_laws) * size + (result.quantities[LOWEST].uncertainty or 0.0)
 
 
+def _fewest(scene: Pocket) -> int:
+    """The number of columns that a film needs at least."""
+    return fewest_columns(scene) if scene.in_plan else 1
+
+
 def _by(model: Model[Pocket], scene: Pocket, cells: int | None = None) -> Result | None:
-    """The result of a model; None if it does not converge."""
+    """The result of a model; None if it does not converge, or its columns are wider than the narrowest dimple."""
+    columns = cells or model.resolution_of(scene)
+    if columns < _fewest(scene):
+        return None
     try:
         return model.solve(scene, Request(resolution=cells))
     except ConvergenceError:

@@ -5,6 +5,7 @@ import time
 from roughfilm.contact.foundation.rounding import share
 from roughfilm.contact.foundation.timing import working_time
 from roughfilm.rom.cavitation.balance import CAVITY
+from roughfilm.rom.cavitation.evaluation.flows import IMBALANCE_FACTOR
 from roughfilm.rom.cavitation.evaluation.grids import cells_of, grid_sequence, grid_uncertainty, grid_warnings
 from roughfilm.rom.cavitation.evaluation.numerics import numerics_of
 from roughfilm.rom.cavitation.solve import Solution
@@ -18,9 +19,6 @@ from roughfilm.rom.pocket.cavitating.grooves import groove_fields, groove_proble
 from roughfilm.rom.pocket.plan.grid import columns_across, require_resolved
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.warnings import inertia_warnings, steep_warnings
-
-IMBALANCE_FACTOR = 10.0
-"""Relative error of a quantity over the relative error of the flow along the film."""
 
 
 def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progress: Progress) -> Result:

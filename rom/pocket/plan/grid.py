@@ -67,6 +67,11 @@ def columns_across(plan: Plan, resolution: int) -> int:
     return across
 
 
+def fewest_columns(scene: Pocket) -> int:
+    """The number of columns along a cell of which none is wider than its narrowest dimple."""
+    return math.ceil(scene.geometry.length / scene.geometry.narrowest)
+
+
 def require_resolved(scene: Pocket, resolution: int) -> None:
     """Refuse so many columns along a cell if its narrowest dimple is narrower than one, and may lie between them.
 
@@ -75,12 +80,11 @@ def require_resolved(scene: Pocket, resolution: int) -> None:
     InputError
         If it is.
     """
-    geometry = scene.geometry
-    least = math.ceil(geometry.length / geometry.narrowest)
+    least = fewest_columns(scene)
     if resolution < least:
         raise InputError(
             f"resolution: got {resolution} columns along the cell, which are wider than the narrowest dimple, "
-            f"{geometry.narrowest:.4g} m; take at least {least}, and {CELLS_PER_FEATURE * least} for accuracy"
+            f"{scene.geometry.narrowest:.4g} m; take at least {least}, and {CELLS_PER_FEATURE * least} for accuracy"
         )
 
 

@@ -3,6 +3,7 @@
 import os
 import re
 import stat
+from dataclasses import replace
 
 import pytest
 from foamlib import FoamFile
@@ -13,6 +14,7 @@ from roughfilm.foamcases.pocket.card import Card
 from roughfilm.foamcases.pocket.models.navier_stokes import MODEL as NAVIER_STOKES
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
+from roughfilm.rom.pocket.models.reynolds import MODEL as REYNOLDS
 
 HOSTILE = [
     '#calc "system(\\"touch /tmp/owned\\")"',
@@ -95,3 +97,20 @@ def test_a_path_with_a_blank_is_refused_before_openfoam_stumbles_over_it(make_sc
     with pytest.raises(InputError, match="takes no blanks in a path"):
         NAVIER_STOKES.write(make_scene(0.3, 0.25, 1), tmp_path / "my case", Request(resolution=20))
     assert not (tmp_path / "my case").exists()
+
+
+def test_a_case_that_was_run_is_outside_of_its_range_as_a_solution_is(make_scene, tmp_path):
+    solution = REYNOLDS.solve(make_scene(0.3, 0.25, 5000))
+    model = replace(NAVIER_STOKES, cases=replace(NAVIER_STOKES.cases, read=lambda *_: replace(solution, outside=())))
+    found = model.read(make_scene(0.3, 0.25, 5000), tmp_path, None).outside
+    assert found == solution.outside
+    assert "exceeds 1440" in found[0]
+
+
+def test_a_case_of_grooves_whose_card_names_every_field_ends_by_its_residuals(make_scene, tmp_path):
+    NAVIER_STOKES.write(make_scene(0.3, 0.25, 160), tmp_path, Request(resolution=20))
+    card = read_card(tmp_path, Card)
+    assert not card.settles
+    assert not replace(card, judged=("Ux", "Uy", "Uz", "p")).settles
+    assert replace(card, judged=("Ux", "p")).settles
+    assert replace(card, judged=("Ux", "Uy", "p"), rows=8).settles

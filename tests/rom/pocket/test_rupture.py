@@ -10,6 +10,7 @@ from roughfilm.rom.advice.advise import Verdict, advise, shortfall
 from roughfilm.rom.advice.expected import expected_errors
 from roughfilm.rom.ladder.kind import kind_of_name
 from roughfilm.rom.ladder.model import Effect, best_for, ladder
+from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
 
 MODELS = tuple(model for model in ladder(rom, kind="pocket") if Effect.CAVITATION not in model.keeps)
@@ -195,3 +196,12 @@ def test_a_model_with_a_large_error_says_that_its_film_may_rupture():
     (warning,) = warnings_of(find("pocket", "inertial_reynolds"), deep_cap(101.325))
     assert "may rupture or stay whole" in warning
     assert not warnings_of(find("pocket", "film_slope"), deep_cap(101.325))
+
+
+@pytest.mark.parametrize(("width", "columns"), [("25 um", 64), ("12 um", 128)])
+def test_a_film_whose_dimples_are_narrower_than_columns_of_other_models_is_solved(width, columns):
+    dimples = [{"shape": "spherical", "width": width, "depth": "5 um"}]
+    cell = ruptured(geometry={"length": "1 mm", "breadth": "1 mm", "film": "5 um", "dimples": dimples})
+    result = find("pocket", "reynolds").solve(cell, Request(resolution=columns))
+    expected = expected_errors(cell, find("pocket", "reynolds"), result, models("pocket"))
+    assert "load_plus" not in expected, "no model with inertia is known to hold"
