@@ -146,18 +146,27 @@ class NamesFile:
     """Annotation of an entry that is the name of a file, or may be one in place of a table.
 
     A serialisation with the context ``{"files": names}`` adds the name to the set ``names``.
+
+    Attributes
+    ----------
+    words : texts that are no names of files.
     """
+
+    words: tuple[str, ...] = ()
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         inner = handler(source)
         return core_schema.no_info_before_validator_function(
-            file_name,
+            self._named,
             inner,
             serialization=core_schema.wrap_serializer_function_ser_schema(self._noted, schema=inner, info_arg=True),
         )
 
+    def _named(self, entry: object) -> object:
+        return str(entry) if isinstance(entry, str) and entry in self.words else file_name(entry)
+
     def _noted(self, value: Any, serialize: Any, info: core_schema.SerializationInfo) -> Any:
-        if isinstance(value, str) and info.context and "files" in info.context:
+        if isinstance(value, str) and value not in self.words and info.context and "files" in info.context:
             info.context["files"].add(value)
         return serialize(value)
 

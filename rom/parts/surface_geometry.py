@@ -24,7 +24,7 @@ PLAIN_FORMATS = (".npy", ".csv")
 """Suffixes of files without metadata; their heights are taken as one period."""
 
 
-def _described(value: object) -> object:
+def surface_entry(value: object) -> object:
     """The name of a file of heights, or a description from a table or TOML file with all defaults."""
     from roughfilm.contact.synthetic.description import description_entries, read_description, read_entries
 
@@ -60,7 +60,7 @@ class SurfaceGeometry(Part):
     digest : digest of the heights in the file; a file that has changed since is rejected.
     """
 
-    surface: Annotated[str | dict[str, Any], BeforeValidator(_described), NamesFile()]
+    surface: Annotated[str | dict[str, Any], BeforeValidator(surface_entry), NamesFile()]
     spacing: Annotated[
         LengthPair | None,
         PlainSerializer(lambda pair: None if pair is None else [with_unit(length, "m") for length in pair]),

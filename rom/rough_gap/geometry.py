@@ -1,17 +1,17 @@
 """The scene entries of the walls of a rough gap: a surface or a sinusoid, and optionally a second rough wall."""
 
 from functools import lru_cache
-from typing import Any, Self
+from typing import Annotated, Any, Self
 
 import numpy as np
-from pydantic import model_validator
+from pydantic import BeforeValidator, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.entries import Length
+from roughfilm.contact.foundation.entries import Length, NamesFile
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, joint_mismatch
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.sinusoids import sinusoid
-from roughfilm.rom.parts.surface_geometry import SurfaceGeometry
+from roughfilm.rom.parts.surface_geometry import SurfaceGeometry, surface_entry
 
 SINUSOID = "sinusoid"
 """The value of ``surface`` for a sinusoidal wall."""
@@ -33,10 +33,12 @@ class RoughWall(SurfaceGeometry):
 
     Attributes
     ----------
+    surface : name of a file of heights, a table that describes a synthetic surface, or "sinusoid".
     amplitude : amplitude of a sinusoid, m.
     wavelength : wavelength of a sinusoid, m.
     """
 
+    surface: Annotated[str | dict[str, Any], BeforeValidator(surface_entry), NamesFile(words=(SINUSOID,))]
     amplitude: Length | None = None
     wavelength: Length | None = None
 
@@ -53,7 +55,7 @@ class RoughWall(SurfaceGeometry):
         if len(wave) < 2:
             missing = "wavelength" if wave == ["amplitude"] else "amplitude"
             raise ValueError(f'{missing}: is missing; surface = "sinusoid" needs an amplitude and a wavelength')
-        return entries | {"surface": SINUSOID}  # a plain text, which is not the name of a file in the folder
+        return entries
 
     @model_validator(mode="after")
     def _is_periodic(self) -> Self:

@@ -20,7 +20,7 @@ from roughfilm.foamcases.openfoam.kept import digests_at_end, exit_code, is_fini
 from roughfilm.foamcases.openfoam.model import CaseModel
 from roughfilm.foamcases.openfoam.program import failure
 from roughfilm.generated.edits import edits_of
-from roughfilm.generated.manifest import Generated, Manifest, digest, read_manifest
+from roughfilm.generated.manifest import MANIFEST, Generated, Manifest, digest, read_manifest
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.provenance import model_code, versions
 from roughfilm.rom.ladder.request import Request
@@ -224,17 +224,30 @@ def _judged(
     if (code := exit_code(directory)) != "0":
         raise failure(f"Allrun ended with the exit code {code:.20}; see its logs, and run the case again", "")
     known = digests_at_end(directory)
-    changed = [name for name, one in known.items() if name not in generated.files and digest(directory / name) != one]
+    judged = {name: one for name, one in known.items() if name not in generated.files and _is_read(directory, name)}
+    changed = [name for name, one in judged.items() if digest(directory / name) != one]
     if changed:
         more = f" and {len(changed) - 1} more" if len(changed) > 1 else ""
         raise failure(f"{changed[0]}{more} was changed after the run; run the case again", "")
     warnings = [*_edited(edits), *result.warnings]
     if not known:
         warnings.append(f"there is no {DIGESTS}, so whether the results are those of the run is not known")
+    if not manifest.has_digest:
+        warnings.append(
+            f"{MANIFEST} has version {manifest.version}, without a digest, so whether it was edited is not known"
+        )
     if manifest.settings[job.setting.name].code != result.provenance["code"]:
         warnings.append("the case was written by another version of roughfilm than the one that read its result")
     origin: Mapping[str, Any] = {**result.provenance, COLLECTED: {"state": state, "edits": list(edits)}}
     return replace(result, warnings=tuple(warnings), provenance=origin)
+
+
+def _is_read(directory: Path, name: str) -> bool:
+    """Whether a file of a run may be read: it is there, and belongs to the whole mesh.
+
+    The reading of a result says itself which file it lacks. The parts of the processes are often removed.
+    """
+    return (directory / name).exists() and not any(part.startswith("processor") for part in Path(name).parts)
 
 
 def _note_edits(found: Collection, generated: Generated, edits: Sequence[str]) -> None:

@@ -23,7 +23,10 @@ INPUTS = "inputs"
 """Directory with copies of the files that the scenes name, such as surfaces."""
 
 VERSION = 2
-"""Version of the manifest that is written and read."""
+"""Version of the manifest that is written."""
+
+WITHOUT_DIGEST = 1
+"""Version that is read too; it has no digest, so that it cannot be checked."""
 
 MAX_MANIFEST_BYTES = 1_000_000_000
 """Largest size of a manifest that is read, bytes; a case takes about 5000."""
@@ -98,6 +101,11 @@ class Manifest:
     digest: str = ""
 
     @property
+    def has_digest(self) -> bool:
+        """Whether a digest tells if an entry was edited."""
+        return self.version != WITHOUT_DIGEST
+
+    @property
     def expected_digest(self) -> str:
         """The digest that these entries have."""
         return hashlib.sha256(json.dumps(asdict(replace(self, digest="")), sort_keys=True).encode()).hexdigest()
@@ -143,8 +151,9 @@ def read_manifest(out: Path) -> Manifest:
         manifest = from_json(text, Manifest)
     except ValueError as error:
         raise InputError(f"{path}: is damaged ({error}); generate the cases again") from error
-    if manifest.version != VERSION:
-        raise InputError(f"{path}: has version {manifest.version}; this one reads {VERSION}, generate again")
+    if manifest.version not in (WITHOUT_DIGEST, VERSION):
+        known = f"{WITHOUT_DIGEST} and {VERSION}"
+        raise InputError(f"{path}: has version {manifest.version}; this one reads {known}, generate again")
     unknown = {name for one in manifest.cases.values() for name in one.varied} - {*manifest.keys}
     if not manifest.cases or not manifest.settings or unknown:
         raise InputError(f"{path}: is damaged (it lacks cases, settings, or keys of cases); generate the cases again")
@@ -153,7 +162,7 @@ def read_manifest(out: Path) -> Manifest:
         if Path(name).is_absolute() or ".." in Path(name).parts:
             raise InputError(f"{path}: names a place outside of its directory, {name!r:.80}; generate the cases again")
         named_path(str(path), name)
-    if manifest.digest != manifest.expected_digest:
+    if manifest.has_digest and manifest.digest != manifest.expected_digest:
         edited = [name for name, one in manifest.cases.items() if one.digest != digest_of_entries(one.scene)]
         what = "the scene" + (f" of the case {edited[0]}" if edited[0] else "") if edited else "an entry"
         raise InputError(f"{path}: {what} was edited, as its digest says; put the original back, or generate again")

@@ -196,7 +196,7 @@ def _copied_inputs(study: Study, out: Path) -> Mapping[str, str]:
     """The copies of all files that the scenes name, by the name in the scene."""
     copies: dict[str, str] = {}
     for case in study.cases:
-        for name in named_files(case.scene) - copies.keys():
+        for name in sorted(named_files(case.scene) - copies.keys()):
             source = Path(name).expanduser()
             if source.is_file():
                 copy = f"{INPUTS}/{digest(source)[:16]}-{source.name}"

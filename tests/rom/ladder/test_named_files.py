@@ -120,6 +120,7 @@ flow = { reynolds_number = 0.5 }
 """
     scene = load_scene(written(folder, text))
     assert scene.geometry.surface == "sinusoid"
+    assert named_files(scene) == frozenset()
     with_file = [f"geometry.surface={folder / 'a.npy'}", "geometry.spacing=2 um"]
     assert named_files(load_scene(written(folder, text), with_file)) == {str(folder / "a.npy")}
 

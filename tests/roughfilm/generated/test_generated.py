@@ -22,6 +22,7 @@ from roughfilm.batch.solve import finished as batch_answers
 from roughfilm.batch.solve import tasks_of
 from roughfilm.cli.main import app
 from roughfilm.foamcases.openfoam.allrun import FINISHED, RUNNING
+from roughfilm.generated import write
 from roughfilm.generated.manifest import read_manifest
 from roughfilm.ladder import models
 from roughfilm.rom.ladder.store import load
@@ -467,3 +468,50 @@ def test_an_empty_manifest_and_a_long_name_are_said(tmp_path, name):
         assert done.exit_code == 2
         assert done.stderr.startswith("error: ")
         assert len(done.stderr) < 1000
+
+
+def as_of_version_1(out):
+    """The manifest as it was before it had a digest."""
+    path = out / "manifest.json"
+    entries = json.loads(path.read_text())
+    del entries["digest"]
+    path.write_text(json.dumps(entries | {"version": 1}))
+
+
+def test_a_manifest_without_a_digest_is_read(tmp_path):
+    generate(GROOVES, tmp_path / "out")
+    before = read_manifest(tmp_path / "out")
+    as_of_version_1(tmp_path / "out")
+    read = read_manifest(tmp_path / "out")
+    assert (read.cases, read.generated) == (before.cases, before.generated)
+    assert (before.has_digest, read.has_digest) == (True, False)
+
+
+@pytest.mark.openfoam
+def test_cases_of_an_older_manifest_that_were_cleaned_are_collected(solved, tmp_path):
+    _, finished = solved("gaps", GAPS)
+    out = tmp_path / "cleaned"
+    shutil.copytree(finished, out, symlinks=True)
+    for path in out.glob("cases/*/*.h5"):
+        path.unlink()
+    as_of_version_1(out)
+    for one in read_manifest(out).generated:
+        with (out / one.directory / "digests.sha256").open("a") as file:
+            file.write(f"{'0' * 64}  ./along/processor0/1/p\n{'0' * 64}  ./along/processor1/1/p\n")
+    (out / read_manifest(out).generated[0].directory / "along" / "processor0" / "1").mkdir(parents=True)
+    (out / read_manifest(out).generated[0].directory / "along" / "processor0" / "1" / "p").write_text("left\n")
+    code, found = collect(out)
+    assert code == 0, found["failures"]
+    with (out / "table.csv").open(newline="") as file:
+        warnings = [row["warnings"] for row in csv.DictReader(file) if row["model"] == "stokes"]
+    assert all("has version 1, without a digest" in one for one in warnings)
+    assert len(warnings) == 2
+
+
+def test_copies_are_made_in_the_order_of_their_names(tmp_path, monkeypatch):
+    names = [f"{tmp_path}/{letter}.npy" for letter in "hcagbdfe"]
+    for name in names:
+        np.save(name, np.zeros((2, 2)))
+    monkeypatch.setattr(write, "named_files", lambda _: frozenset(names))
+    study = load_study(generate(GROOVES, tmp_path / "out"), models())
+    assert list(write._copied_inputs(study, tmp_path)) == sorted(names)
