@@ -180,8 +180,8 @@ def _films(scene: Pocket) -> _Films:
     """
     reynolds = _by(REYNOLDS, scene)
     if reynolds is None:
-        columns = max(REYNOLDS.resolution_of(scene), _fewest(scene))
-        reynolds = REYNOLDS.solve(scene, Request(resolution=columns))
+        fine = max(REYNOLDS.resolution_of(scene), _fewest(scene))
+        reynolds = REYNOLDS.solve(scene, Request(resolution=fine))
     limit = scene.cavitation_pressure / scene.pressure_unit * scene.plus_factor
     falls = reynolds.quantities[LOWEST].value < limit
     films = _Films(
@@ -216,8 +216,7 @@ def _fewest(scene: Pocket) -> int:
 
 def _by(model: Model[Pocket], scene: Pocket, cells: int | None = None) -> Result | None:
     """The result of a model; None if it does not converge, or its columns are wider than the narrowest dimple."""
-    columns = cells or model.resolution_of(scene)
-    if columns < _fewest(scene):
+    if (cells or model.resolution_of(scene)) < _fewest(scene):
         return None
     try:
         return model.solve(scene, Request(resolution=cells))
