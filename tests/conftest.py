@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
-from places import MEASURED, SCENES
+from places import MEASURED, SAMPLES, SCENES
 
 from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.rom.ladder.kind import Scene
@@ -62,6 +62,8 @@ def measured_file():
     def find(name: str) -> Path:
         if not MEASURED.is_dir():
             pytest.skip(f"measured surfaces are not here: {MEASURED} is absent")
+        if (SAMPLES / name).is_file():
+            return SAMPLES / name
         return MEASURED / name
 
     return find

@@ -3,6 +3,7 @@
 import io
 import zipfile
 from pathlib import Path
+from typing import TypeVar
 from xml.etree import ElementTree
 
 import numpy as np
@@ -17,6 +18,8 @@ MAX_INDEX_BYTES = 10_000_000
 
 REVISION = "ISO5436 - 2000"
 """The revision that SurfaceTopography expects; instruments write it with other dashes and dates."""
+
+N = TypeVar("N", int, float)
 
 FROM_LIST = "heights.bin"
 """Name of the member with the heights that the index listed."""
@@ -136,14 +139,24 @@ def _heights_of_list(root: ElementTree.Element) -> bytes | None:
     if record is None or heights is None or kind is None:
         return None
     texts = [(one.text or "").rpartition(";")[2].strip() for one in heights.iter("Datum")]
-    counts = [int(record.findtext(f"MatrixDimension/Size{axis}") or 0) for axis in "XY"]
+    counts = [
+        _number(record.findtext(f"MatrixDimension/Size{axis}") or "0", "gives the number of points", int)
+        for axis in "XY"
+    ]
     if len(texts) != counts[0] * counts[1]:
         raise InputError(
             f"lists {len(texts)} heights for {counts[0]} x {counts[1]} points; export it again from the instrument"
         )
-    values = np.array([float(text) if text else np.nan for text in texts], dtype="<f8")
+    values = np.array([_number(text, "lists the height", float) if text else np.nan for text in texts], dtype="<f8")
     record.remove(heights)
     link = ElementTree.SubElement(record, "DataLink")
     ElementTree.SubElement(link, "PointDataLink").text = FROM_LIST
     kind.text = "D"
     return values.tobytes()
+
+
+def _number(text: str, said: str, kind: type[N]) -> N:
+    try:
+        return kind(text)
+    except (ValueError, OverflowError):
+        raise InputError(f"{said} {text!r:.40}, which is no number; export it again from the instrument") from None

@@ -228,3 +228,11 @@ def test_without_the_library_the_message_says_how_to_get_it(tmp_path, monkeypatc
     (tmp_path / "s.opd").write_bytes(b"x")
     with pytest.raises(UnavailableError, match=r"pip install 'roughfilm\[instruments\]'"):
         read_surface(tmp_path / "s.opd")
+
+
+@pytest.mark.measured
+def test_a_file_of_nms_is_read_by_its_own_reader(measured_file):
+    """512 x 512 points with a standard deviation of 0.4178 um, as the instrument's program states."""
+    found = read_surface(measured_file("areal.nms"))
+    assert found.shape == (512, 512)
+    assert found.heights[found.valid].std() == pytest.approx(0.4178e-6, rel=2e-4)

@@ -17,6 +17,7 @@ pytest.importorskip("SurfaceTopography")
 HEIGHTS = 1e-6 * np.random.default_rng(871).normal(size=(7, 5))
 DX, DY = 2e-6, 3e-6
 MOST = 1_000_000
+SAMPLES = ("iso5436_sample1.x3p", "pyramid.x3p")
 
 MAIN = """<?xml version="1.0" encoding="UTF-8" standalone="no"?>
 <p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2">
@@ -52,6 +53,14 @@ def child(path):
     return header, None if "shape" not in header else np.frombuffer(rest).reshape(header["shape"])
 
 
+def listed(texts=None):
+    """The same with the heights as a list in the index, in rows along x, and the revision of another writer."""
+    texts = [f"{height:.17g}" for height in HEIGHTS.T.ravel()] if texts is None else texts
+    data = "".join(f"<Datum>{text}</Datum>" for text in texts)
+    index = members()["main.xml"].decode().replace("ISO5436 - 2000", "ISO5436 \N{EN DASH} 2007")
+    return {"main.xml": re.sub("<DataLink>.*</DataLink>", f"<DataList>{data}</DataList>", index).encode()}
+
+
 GOOD = {
     "as it should be": members(),
     "in a folder": {"my surface/": b"", **members(folder="my surface/")},
@@ -62,6 +71,11 @@ GOOD = {
     "empty increment of the heights": members(scale="<Increment/>"),
     "empty offsets in a folder": members(offset="<Offset></Offset>", folder="a/"),
     "no offsets": members(offset=""),
+    "heights in the index": listed(),
+    "another revision": {
+        **members(),
+        "main.xml": members()["main.xml"].replace(b"ISO5436 - 2000", "ISO5436 \N{EN DASH} 2000".encode()),
+    },
 }
 
 
@@ -72,6 +86,15 @@ def test_an_archive_gives_its_heights(tmp_path, kind):
     assert header["format"] == "x3p"
     assert header["size"] == pytest.approx([7 * DX, 5 * DY])
     assert np.allclose(heights, HEIGHTS, rtol=0, atol=1e-20)
+
+
+def test_an_empty_height_of_a_list_is_invalid(tmp_path):
+    """Heights run along x first: the ninth of a map of 7 x 5 is that of x 1, y 1."""
+    texts = [f"{height:.17g}" for height in HEIGHTS.T.ravel()]
+    texts[8] = ""
+    surface = read_surface(write(tmp_path / "s.x3p", listed(texts)))
+    assert np.argwhere(surface.invalid).tolist() == [[1, 1]]
+    assert np.allclose(surface.heights[surface.valid], HEIGHTS[surface.valid], rtol=0, atol=1e-20)
 
 
 def test_a_surface_in_a_folder_is_read(tmp_path):
@@ -87,6 +110,12 @@ BAD = {
     "no heights": ({"a/main.xml": members()["main.xml"]}, "cannot be read"),
     "too few heights": ({**members(folder="a/"), "a/bindata/data.bin": b"\0" * 99}, "cannot be read"),
     "another index": ({"a/main.xml": b"<html/>"}, "cannot be read|is in no format"),
+    "a short list": (listed(["1e-6"] * 34), "lists 34 heights for 7 x 5 points"),
+    "a list of words": (listed(["high"] * 35), "lists the height 'high'"),
+    "a count of points in words": (
+        {"main.xml": listed()["main.xml"].replace(b"<SizeX>7<", b"<SizeX>many<")},
+        "gives the number of points 'many'",
+    ),
     "a bomb": ({**members(folder="a/"), "a/bindata/data.bin": b"\0" * 30_000_000}, "claims 30.* bytes of members"),
     "a bomb of an index": (
         {**members(folder="a/"), "a/main.xml": b"<p>" + b" " * 20_000_000 + b"</p>"},
@@ -120,6 +149,17 @@ def test_what_is_no_x3p_is_left_alone(tmp_path):
     assert repaired(tmp_path / "s.opd", MOST) is None
     assert repaired(write(tmp_path / "other.zip", {"a.txt": b""}), MOST) is None
     assert repaired(write(tmp_path / "good.x3p", members()), MOST) is None
+
+
+@pytest.mark.measured
+def test_the_samples_of_the_format_are_read(measured_file):
+    """A map of 4 x 4 with one empty height, and a pyramid of 5 x 5 with another dash in its revision."""
+    sample, pyramid = (instruments.read_instrument(measured_file(name)) for name in SAMPLES)
+    assert sample.heights.shape == (4, 4)
+    assert np.isnan(sample.heights).sum() == 1
+    assert pyramid.heights.shape == (5, 5)
+    assert np.array_equal(pyramid.heights, pyramid.heights[::-1])
+    assert np.array_equal(pyramid.heights, pyramid.heights.T)
 
 
 @pytest.mark.measured
