@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.ranges import in_range
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.parameters.profile import SECTIONS
-from roughfilm.contact.surfaces.profile import Profile
+from roughfilm.contact.surfaces.profile import CONSTANT, Profile
 from roughfilm.contact.synthetic.description import RandomField
 from roughfilm.contact.synthetic.random_field import DECIBEL, MIN_WINDOWS, at_scores, octave_of
 
@@ -41,7 +41,7 @@ def fit_profile(profile: Profile, *, anisotropy: float = 1.0) -> RandomField:
     Raises
     ------
     InputError
-        If a section has fewer than 32 points, or the anisotropy is out of range.
+        If a section has fewer than 32 points, all heights are the same, or the anisotropy is out of range.
 
     Notes
     -----
@@ -60,6 +60,8 @@ def fit_profile(profile: Profile, *, anisotropy: float = 1.0) -> RandomField:
         raise InputError(
             f"profile: got {profile.heights.size} points; {SECTIONS * MIN_POINTS} are needed for a spectrum"
         )
+    if np.ptp(profile.heights) <= CONSTANT * np.abs(profile.heights).max():
+        raise InputError("profile: all heights are the same; there is no roughness to fit")
     top = (points - 1) // 2
     edges = np.unique(np.append(np.rint(2 ** np.arange(0, 2 * math.log2(top), 0.5)), top + 1))
     edges = edges[edges <= top + 1]

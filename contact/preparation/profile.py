@@ -6,7 +6,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.preparation.filters import mean_line
 from roughfilm.contact.preparation.form import ORDERS
 from roughfilm.contact.preparation.recipe import Recipe
-from roughfilm.contact.surfaces.profile import Profile
+from roughfilm.contact.surfaces.profile import CONSTANT, Profile
 
 
 def prepare_profile(profile: Profile, recipe: Recipe) -> Profile:
@@ -36,7 +36,7 @@ def prepare_profile(profile: Profile, recipe: Recipe) -> Profile:
             )
         mean = mean_line(heights, index / profile.spacing)
         heights = mean if name == "s_filter" else heights - mean
-    if np.ptp(heights) <= 1e-12 * np.abs(profile.heights).max():
+    if np.ptp(heights) <= CONSTANT * np.abs(profile.heights).max():
         raise InputError("profile: all heights are the same once its form is removed; there is no roughness")
     scale = {"form": recipe.form, "s_filter": recipe.s_filter, "l_filter": recipe.l_filter}
     return Profile(heights=heights, spacing=profile.spacing, source={**profile.source, "scale": scale})

@@ -6,13 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, real_array
 from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.ranges import RANGES
 from roughfilm.contact.surfaces.surface import MAX_LENGTH, MIN_SPACING
 
 MIN_VALID = 0.5
 """Smallest fraction of measured points of a profile; with fewer it is refused."""
+
+CONSTANT = 1e-12
+"""Range of the heights over the highest one up to which they differ by rounding alone."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,7 +25,7 @@ class Profile:
 
     Attributes
     ----------
-    heights : shape (n,), m, upward; finite. Read-only.
+    heights : shape (n,), m, upward; finite. Read-only. Points given as NaN or masked (``numpy.ma``) are not measured.
     spacing : distance of neighbouring points, m.
     source : origin of the profile, as entries that JSON can hold; ``filled`` is the number of points that were not
         measured, whose heights are interpolated linearly between their neighbours.
@@ -29,8 +33,8 @@ class Profile:
     Raises
     ------
     InputError
-        If there are fewer than 2 points, a height is infinite, fewer than half of the points are measured, or heights
-        or spacing are out of range.
+        If heights or spacing are no real numbers or out of range, the heights are not in one line, there are fewer than
+        2 of them, or fewer than half of the points are measured.
 
     Examples
     --------
@@ -46,20 +50,27 @@ class Profile:
     __repr__ = brief
 
     def __post_init__(self) -> None:
-        heights = np.array(self.heights, dtype=np.float64).ravel()
+        given = real_array("profile", self.heights, "heights in m")
+        if given.size != max(given.shape, default=1):
+            raise InputError(f"profile: got heights of shape {given.shape}; give one line of them")
+        given[np.ma.getmaskarray(self.heights)] = np.nan
+        heights = given.ravel()
         if heights.size < 2:
             raise InputError(f"profile: got {heights.size} points; at least 2 are needed")
         missing = np.isnan(heights)
         if missing.mean() > 1 - MIN_VALID:
             raise InputError(f"profile: {int(missing.sum())} of {heights.size} points are invalid; measure it again")
-        if not np.abs(heights[~missing]).max() <= MAX_LENGTH:
-            raise InputError(f"profile: got heights up to {np.abs(heights[~missing]).max():.3g} m; look at the unit")
-        if not MIN_SPACING <= self.spacing < MAX_LENGTH:
-            raise InputError(f"profile: got a spacing of {self.spacing!r} m; give one of 1e-15 m or more")
+        highest = float(np.abs(heights[~missing]).max())
+        if highest > MAX_LENGTH or highest not in RANGES["m"]:
+            raise InputError(f"profile: got heights up to {highest:.3g} m; look at the unit")
+        step = real_array("profile", self.spacing, "one length in m as spacing")
+        if step.shape != () or not MIN_SPACING <= step < MAX_LENGTH:
+            raise InputError(f"profile: got a spacing of {self.spacing!r:.60} m; give one of 1e-15 m or more")
         places = np.arange(heights.size)
         heights[missing] = np.interp(places[missing], places[~missing], heights[~missing])
         heights.flags.writeable = False
         object.__setattr__(self, "heights", heights)
+        object.__setattr__(self, "spacing", float(step))
         object.__setattr__(self, "source", {**self.source, "filled": int(missing.sum())})
 
     @property

@@ -10,6 +10,7 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.kind import Kind, Omission
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
+from roughfilm.rom.parts.gas import leakage_of_gas
 from roughfilm.rom.parts.laminar import pressure_turbulence, shear_turbulence
 from roughfilm.rom.parts.surface_geometry import replaced_by
 from roughfilm.rom.rough_gap.scene import RoughGap
@@ -96,9 +97,18 @@ def numbers(scene: RoughGap) -> dict[str, float]:
 
 
 def outside(scene: RoughGap, _model: Any, _result: Result | None) -> tuple[str, ...]:
-    """The sentences on a flow by pressure, or by sliding as fast, that is not laminar."""
+    """The sentences on a flow by pressure, or by sliding as fast, that is not laminar, and on a gas taken as a liquid.
+
+    The pressure drop is that over the longer side of the period; the pressures under sliding scale with it, too, since
+    6ηuL/h̄² = G L.
+    """
     sliding = scene.density * scene.sliding_speed * scene.mean_gap / scene.viscosity
-    return (*pressure_turbulence(scene.reynolds_number), *shear_turbulence(sliding))
+    drop = scene.pressure_gradient * max(scene.surface().size)
+    return (
+        *pressure_turbulence(scene.reynolds_number),
+        *shear_turbulence(sliding),
+        *leakage_of_gas(scene.density, scene.viscosity, drop, scene.boundary.ambient_pressure),
+    )
 
 
 def omitted(scene: RoughGap, _model: Any, quantity: str) -> Omission | None:

@@ -7,12 +7,14 @@ from typing import Any
 
 from roughfilm.contact.fitting import profile as fitting
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.ranges import in_range
 from roughfilm.contact.preparation.profile import prepare_profile
 from roughfilm.contact.surfaces.files import read_measurement
 from roughfilm.contact.surfaces.profile import Profile
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make
 from roughfilm.interface.recipes import steps_of
+from roughfilm.interface.surfaces import codes_of
 
 
 def read_profile(
@@ -21,7 +23,7 @@ def read_profile(
     spacing: float | None = None,
     channel: str | None = None,
     height_unit: str | None = None,
-    invalid: Sequence[float] = (),
+    invalid: float | Sequence[float] = (),
     recipe: str | Path | Mapping[str, Any] | None = None,
 ) -> Profile:
     """Read a profile from a file, and remove its form and waves by a recipe.
@@ -32,7 +34,7 @@ def read_profile(
     spacing : distance of neighbouring points, m, if the file does not hold it.
     channel : name of the channel, if the file of an instrument holds several.
     height_unit : unit of the heights, such as "um", if the file does not hold it; m for NPY.
-    invalid : heights that mark missing points, in the unit of the file.
+    invalid : heights that mark missing points, such as -9999 or 0, in the unit of the file.
     recipe : TOML file or nested entries with ``form``, ``s_filter`` (λs) and ``l_filter`` (λc); by default the heights
         stay as measured.
 
@@ -45,7 +47,7 @@ def read_profile(
     Raises
     ------
     InputError
-        If the file is missing, damaged or incomplete, or holds a surface.
+        If the file is missing, damaged or incomplete, or holds a surface, or another argument is out of range.
     UnavailableError
         If the file needs a library that is not installed.
 
@@ -60,8 +62,14 @@ def read_profile(
     """
     if not isinstance(path, str | os.PathLike):
         raise InputError(f"path: got {type(path).__name__}; name a file; heights in an array need no reading")
-    pair = None if spacing is None else (float(spacing), float(spacing))
-    found = read_measurement(Path(path), channel=channel, spacing=pair, height_unit=height_unit, invalid=invalid)
+    step = None if spacing is None else in_range("spacing", spacing, "m")
+    found = read_measurement(
+        Path(path),
+        channel=channel,
+        spacing=None if step is None else (step, step),
+        height_unit=height_unit,
+        invalid=codes_of(invalid),
+    )
     if isinstance(found, Surface):
         raise InputError(
             f"{path}: is a surface of {found.shape[0]} x {found.shape[1]} points; read it by read_surface()"
@@ -88,7 +96,7 @@ def fit_profile(profile: Profile, *, anisotropy: float = 1.0, seed: int = 0) -> 
     Raises
     ------
     InputError
-        If the profile has fewer than 160 points, or another argument is out of range.
+        If the profile has fewer than 160 points, all its heights are the same, or another argument is out of range.
 
     References
     ----------

@@ -126,7 +126,7 @@ def read_surface(
     if not isinstance(path, str | os.PathLike):
         raise InputError(f"path: got {type(path).__name__}; name a file; heights in an array need no reading")
     file = Path(path)
-    codes = _codes(invalid)
+    codes = codes_of(invalid)
     if file.suffix.lower() == ".toml":
         given = {"spacing": spacing, "channel": channel, "height_unit": height_unit, "invalid": codes or None}
         for name in (name for name, value in given.items() if value is not None):
@@ -139,10 +139,11 @@ def read_surface(
     return surface
 
 
-def _codes(invalid: float | Sequence[float]) -> tuple[float, ...]:
+def codes_of(invalid: float | Sequence[float]) -> tuple[float, ...]:
+    """The heights that mark missing points; raises InputError unless they are numbers."""
     try:
-        return tuple(np.atleast_1d(np.asarray(invalid, dtype=float)).tolist())
-    except (TypeError, ValueError):
+        return tuple(np.asarray(invalid, dtype=float).ravel().tolist())
+    except (TypeError, ValueError, OverflowError):
         raise InputError(f"invalid: got {invalid!r:.60}; give a height, or a list of them") from None
 
 

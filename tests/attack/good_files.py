@@ -243,7 +243,7 @@ def _read_row(path: Path) -> Any:
 
 
 def _march(path: Path) -> Any:
-    """The least film of a march that begins, or goes on, in a file."""
+    """The minimum film thickness of a march that begins, or goes on, in a file."""
     return march(load_scene(SHAFT), 1e-4, steps=2, cells=(16, 8), uncertainty=False, file=path)["film_min"].tolist()
 
 

@@ -8,6 +8,7 @@ import pytest
 from places import SCENES
 
 import roughfilm as rf
+from roughfilm.contact.surfaces.profile import Profile
 
 CYCLE: dict[str, Any] = {"name": "c", "kind": "pocket"}
 CYCLE["geometry"] = CYCLE
@@ -119,6 +120,83 @@ def test_what_are_no_heights() -> None:
         with pytest.raises(rf.InputError) as error:
             rf.Surface(heights=np.zeros((4, 4)), spacing=spacing)
         line(error)
+
+
+NO_LENGTHS: list[Any] = ["1um", *NO_SPACINGS[2:], 1j, np.nan, 0, -1e-6, 10**400]
+NO_LINES: list[Any] = [
+    *(heights for heights in NO_HEIGHTS if np.shape(heights if isinstance(heights, np.ndarray) else ()) != (4,)),
+    ["a", "b"],
+    np.zeros(4, complex),
+    np.zeros((4, 4)),
+    [np.inf, 0.0, 1.0],
+    [1e-40, 0.0],
+    [1e-6],
+]
+
+
+def test_what_is_no_profile() -> None:
+    for heights in NO_LINES:
+        with pytest.raises(rf.InputError, match=r"^profile: ") as error:
+            Profile(heights=heights, spacing=1e-6)
+        line(error)
+    for spacing in [*NO_LENGTHS, None]:
+        with pytest.raises(rf.InputError, match=r"^profile: ") as error:
+            Profile(heights=np.zeros(4), spacing=spacing)
+        line(error)
+
+
+def test_masked_points_of_a_profile_are_not_measured() -> None:
+    """A number under a mask means nothing; the height is interpolated between the neighbours."""
+    profile = Profile(heights=np.ma.masked_array([1e-6, 9.0, 3e-6], [False, True, False]), spacing=1e-6)
+    assert profile.heights.tolist() == pytest.approx([1e-6, 2e-6, 3e-6], rel=1e-12)
+    assert profile.source["filled"] == 1
+
+
+def test_what_read_profile_does_not_take(tmp_path: Path) -> None:
+    file = tmp_path / "line.npy"
+    np.save(file, 1e-6 * np.sin(np.arange(500) / 10))
+    for path in NO_PATHS:
+        with pytest.raises(rf.InputError) as error:
+            rf.read_profile(path, spacing=1e-6)
+        line(error)
+    for spacing in NO_LENGTHS:
+        with pytest.raises(rf.InputError, match=r"spacing") as error:
+            rf.read_profile(file, spacing=spacing)
+        line(error)
+    for invalid in ("none", 1j, b"x", [[1.0, 2.0], [3.0]], 10**400, {}, object(), ["a"]):
+        with pytest.raises(rf.InputError, match=r"^invalid: got ") as error:
+            rf.read_profile(file, spacing=1e-6, invalid=invalid)  # type: ignore[arg-type]
+        line(error)
+
+
+def test_read_profile_takes_one_code_or_a_list(tmp_path: Path) -> None:
+    np.savetxt(tmp_path / "line.csv", [1.0, -9999.0, 3.0, 4.0], header="spacing: 1 um, 1 um; heights: um")
+    for invalid in (-9999, [-9999, 7], np.array([-9999])):
+        profile = rf.read_profile(tmp_path / "line.csv", invalid=invalid)
+        assert (1e6 * profile.heights).tolist() == pytest.approx([1, 2, 3, 4], rel=1e-12)
+
+
+def test_what_fit_profile_does_not_take() -> None:
+    wave = Profile(heights=1e-6 * np.sin(np.arange(500) / 10), spacing=1e-6)
+    for profile in (*NO_PATHS, [1e-6] * 500):
+        with pytest.raises(rf.InputError, match=r"^profile: got ") as error:
+            rf.fit_profile(profile)  # type: ignore[arg-type]
+        line(error)
+    for anisotropy in (0, -1, "a", 1j, None, np.nan, np.inf, True, [1.0], object()):
+        with pytest.raises(rf.InputError, match=r"^anisotropy: got ") as error:
+            rf.fit_profile(wave, anisotropy=anisotropy)  # type: ignore[arg-type]
+        line(error)
+    for seed in (-1, "a", 1.5, None, True, 10**30, [1], object()):
+        with pytest.raises(rf.InputError, match=r"seed: got ") as error:
+            rf.fit_profile(wave, seed=seed)  # type: ignore[arg-type]
+        line(error)
+
+
+@pytest.mark.parametrize("height", [0.0, 1e-7, -0.1])
+def test_a_constant_profile_has_no_spectrum(height: float) -> None:
+    with pytest.raises(rf.InputError, match=r"^profile: all heights are the same") as error:
+        rf.fit_profile(Profile(heights=np.full(500, height), spacing=1e-6))
+    line(error)
 
 
 def test_what_are_no_cells() -> None:

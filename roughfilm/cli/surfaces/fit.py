@@ -95,7 +95,8 @@ def command(
             raise InputError(f"--anisotropy: {file} is a surface, which has its own lay; leave it out")
         refuse_unwritable((out, DESCRIPTION), (report, PAGE), overwrite=overwrite)
         if isinstance(given, Profile):
-            field = fit_profile(prepare_profile(given, steps), anisotropy=anisotropy or 1.0)
+            gamma = 1.0 if anisotropy is None else anisotropy
+            field = fit_profile(prepare_profile(given, steps), anisotropy=gamma)
             _show_field(file.name, given, field, spent, out, overwrite=overwrite, as_json=as_json)
             return
         fit = fit_windows(

@@ -11,12 +11,11 @@ from roughfilm.contact.surfaces.files import read_surface
 from roughfilm.contact.surfaces.store import save_surface
 
 SPACING = (1e-6, 1e-6)
-RNG = np.random.default_rng(77)
 
 
 def coded(code, where=np.s_[4:14, 20:27]):
     """Heights of 1 µm with a block of one code, and the mask of the block."""
-    heights = 1e-6 * RNG.normal(size=(40, 50)) + 5e-6
+    heights = 1e-6 * np.random.default_rng(77).normal(size=(40, 50)) + 5e-6
     heights[where] = code
     return heights, heights == code
 

@@ -43,23 +43,36 @@ def test_a_program_can_be_stopped_by_who_watches_it(tmp_path):
     assert ended.code == -signal.SIGTERM
 
 
-def runs(process):
-    """Whether a process is there and is no dead one that nobody has waited for."""
-    try:
-        return "\nState:\tZ" not in Path(f"/proc/{process}/status").read_text()
-    except FileNotFoundError:
-        return False
+CHILD = """
+import time
+with open("pipe", "wb", buffering=0) as pipe:
+    print("started", flush=True)
+    time.sleep(600)
+    pipe.write(b"survived")
+"""
+"""A child that holds a named pipe open as long as it lives, and writes to it if nobody ends it."""
+
+PARENT = """
+import pathlib, signal, subprocess, sys, time
+child = subprocess.Popen([sys.executable, "-c", {child!r}], stdout=subprocess.PIPE)
+child.stdout.readline()
+pathlib.Path("started").touch()
+{end}
+"""
 
 
-@pytest.mark.parametrize("end", ["exit 3", "sleep 60", "trap '' TERM; exit 0"])
+@pytest.mark.parametrize(
+    "end", ["sys.exit(3)", "time.sleep(600)", "signal.signal(signal.SIGTERM, signal.SIG_IGN); sys.exit(0)"]
+)
 def test_a_program_that_breaks_leaves_no_child(tmp_path, end):
-    script = f"sleep 60 & echo $! > child.tmp && mv child.tmp child; {end}"
-    execute(tmp_path, ["sh", "-c", script], "log", (tmp_path / "child").is_file)
-    child = (tmp_path / "child").read_text().strip()
-    deadline = time.monotonic() + 20
-    while runs(child) and time.monotonic() < deadline:
-        time.sleep(0.01)
-    assert not runs(child)
+    os.mkfifo(tmp_path / "pipe")
+    pipe = os.open(tmp_path / "pipe", os.O_RDONLY | os.O_NONBLOCK)  # so that the child can open it without waiting
+    script = PARENT.format(child=CHILD, end=end)
+    execute(tmp_path, [sys.executable, "-c", script], "log", (tmp_path / "started").is_file)
+    assert (tmp_path / "started").is_file()
+    os.set_blocking(pipe, True)
+    with open(pipe, "rb") as held:
+        assert held.read() == b""  # returns when the child has ended
 
 
 def test_a_program_that_ends_just_before_it_is_stopped_has_its_own_code(tmp_path, monkeypatch):

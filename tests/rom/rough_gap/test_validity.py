@@ -104,3 +104,37 @@ def test_friction_between_walls_that_touch_has_no_error(name):
         result = with_errors(model.solve(scene), scene, model, models("rough_gap"))
         assert ("friction" in result.expected_error) is known
         assert any("friction does not converge" in warning for warning in result.warnings) is not known
+
+
+def of_fluid(density, viscosity, gradient, **boundary):
+    entries = {
+        "name": "wave",
+        "kind": "rough_gap",
+        "geometry": {"surface": "sinusoid", "amplitude": "1 um", "wavelength": "100 um", "mean_gap": "10 um"},
+        "lubricant": {"viscosity": f"{viscosity} Pa*s", "density": f"{density} kg/m^3"},
+        "flow": {"pressure_gradient": f"{gradient} Pa/m"},
+    }
+    return read_scene(entries | ({"boundary": boundary} if boundary else {}))
+
+
+@pytest.mark.parametrize(("gradient", "ambient"), [(1e8, 1e5), (5e7, 1e5), (1e8, 1e6)])
+def test_a_gas_is_outside_by_the_flow_of_an_ideal_gas(gradient, ambient):
+    """The isothermal flow of an ideal gas, whose pressure p has d(p dp/dx)/dx = 0, over that of a liquid."""
+    scene = of_fluid(1.2, 1.8e-5, gradient, ambient_pressure=f"{ambient} Pa")
+    drop = gradient * 100e-6
+    gas = ((ambient + drop) ** 2 - ambient**2) / 2
+    (reason,) = (one for one in KIND.outside(scene, None, None) if "is a gas" in one)
+    assert f"{drop / ambient:.3g} times the ambient pressure" in reason
+    assert f"at the outlet leaks {gas / (drop * ambient):.4g} times" in reason
+    assert f"at the inlet {gas / (drop * (ambient + drop)):.4g} times" in reason
+
+
+def test_a_liquid_and_a_gas_of_a_small_pressure_drop_are_inside():
+    assert KIND.outside(of_fluid(870, 0.01, 1e8), None, None) == ()
+    assert KIND.outside(of_fluid(1.2, 1.8e-5, 1e5), None, None) == ()
+
+
+def test_a_result_says_that_its_liquid_is_a_gas():
+    scene, model = of_fluid(1.2, 1.8e-5, 1e7), find("rough_gap", "homogenized")
+    result = with_errors(model.solve(scene), scene, model, models("rough_gap"))
+    assert any("is a gas" in one for one in result.outside)

@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -101,3 +102,11 @@ def test_bad_input_is_refused_in_one_line(place, monkeypatch, words, message):
     assert done.exit_code == 2
     assert message in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("anisotropy", ["0", "-1", "nan"])
+def test_an_anisotropy_out_of_range_is_refused(tmp_path, anisotropy):
+    np.save(tmp_path / "line.npy", 1e-6 * np.random.default_rng(1).standard_normal(500))
+    done = run("fit", tmp_path / "line.npy", "--set", "read.spacing=1um", f"--anisotropy={anisotropy}")
+    assert done.exit_code == 2
+    assert "anisotropy: got" in done.output
