@@ -242,9 +242,9 @@ def march_bearing(
                 )
     if "temperature" in series.units:
         warnings += scene.lubricant.hot(float(series["temperature"].max()) + ZERO_CELSIUS)
-        warnings += missing_in_series(
-            series["estimated_heat_transfer"].tolist(), "steps", "the uncertainty does not contain"
-        )
+        held = (series.time >= summary.first) & (series.time <= summary.last)
+        transfers = series["estimated_heat_transfer"][held].tolist()
+        warnings += missing_in_series(transfers, "steps in that time", "the uncertainty does not contain")
     infinite = Observer(duty=duty, film=film_at(duty, cells, walls_of(duty.scene))).infinite_flows
     if infinite:
         quantities |= {
