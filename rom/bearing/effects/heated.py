@@ -8,6 +8,7 @@ from roughfilm.rom.bearing.effects.ablation import Variant, VariantSolution
 from roughfilm.rom.bearing.model import smooth_resolutions
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.heat_balance import EFFECTIVE, INSENSITIVE, Heated, Sensitivity, balanced_film, grids
+from roughfilm.rom.bearing.thermal.outside import outside_at
 from roughfilm.rom.ladder.model import Progress, silent
 
 SolveOn = Callable[[Variant, int, Progress], VariantSolution]
@@ -26,7 +27,8 @@ def with_heat(solve: SolveOn, variant: Variant, cells: int, progress: Progress =
     Returns
     -------
     VariantSolution
-        Its scene is at the temperature of the film, and its quantities include ``effective_temperature``.
+        Its scene is at the temperature of the film, and its quantities include ``effective_temperature``. Where this or
+        the supply is outside of the range of the lubricant, ``outside`` says so.
 
     Raises
     ------
@@ -37,7 +39,7 @@ def with_heat(solve: SolveOn, variant: Variant, cells: int, progress: Progress =
     """
     scene = variant.scene
     if scene.lubricant.lacking:
-        return solve(variant, cells, progress)
+        return _judged(solve(variant, cells, progress), scene)
     liquid, base, spent = scene.lubricant.liquid, variant.outputs, 0.0
 
     def film(temperature: float, size: int, sensitivity: Sensitivity = INSENSITIVE) -> VariantSolution:
@@ -49,7 +51,12 @@ def with_heat(solve: SolveOn, variant: Variant, cells: int, progress: Progress =
 
     sizes = grids(smooth_resolutions(scene), cells)
     found, _, _ = balanced_film(film, lambda one: one.values, scene, sizes)
-    return replace(found, cpu_s=spent)
+    return _judged(replace(found, cpu_s=spent), scene)
+
+
+def _judged(found: VariantSolution, scene: Bearing) -> VariantSolution:
+    """The solution with the sentence on temperatures outside of the range of the lubricant of the scene."""
+    return replace(found, outside=(*outside_at(scene, found.values), *found.outside))
 
 
 def supplied(there: Bearing, scene: Bearing) -> Bearing:

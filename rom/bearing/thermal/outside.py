@@ -1,5 +1,7 @@
 """Temperatures of a bearing outside of the range of its lubricant, and of models whose walls take no heat."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
@@ -28,13 +30,25 @@ def outside_of_lubricant(scene: Bearing, result: Result | None = None) -> tuple[
     ----------
     result : the solution, whose film and flows count; without it the lubricant counts as it is supplied.
     """
+    if result is None:
+        return outside_at(scene, {})
+    known = {name: quantity.value for name, quantity in result.quantities.items()}
+    field = result.fields.get("temperature")
+    return outside_at(scene, known, () if field is None else [float(field.values.min())])
+
+
+def outside_at(scene: Bearing, values: Mapping[str, float], others: Sequence[float] = ()) -> tuple[str, ...]:
+    """The same of lubricant as it is supplied, at the temperatures among the values of quantities, and at others, °C.
+
+    Parameters
+    ----------
+    scene : the bearing with the lubricant as it is supplied.
+    values : values by the name of the quantity, those of ``OF_FILM`` in °C.
+    """
     if scene.lubricant.temperature is None:
         return ()
-    found = [scene.lubricant.temperature]
-    if result is not None:
-        found += [result[name].value + ZERO_CELSIUS for name in OF_FILM if name in result.quantities]
-        if "temperature" in result.fields:
-            found.append(float(result.fields["temperature"].values.min()) + ZERO_CELSIUS)
+    degrees = [*(values[name] for name in OF_FILM if name in values), *others]
+    found = [scene.lubricant.temperature, *(one + ZERO_CELSIUS for one in degrees)]
     return tuple(scene.lubricant.beyond(min(found), max(found)))
 
 

@@ -107,3 +107,13 @@ def test_without_a_law_of_temperature_there_is_no_heating():
     analysis = analyse_effects(scene_of(JOURNAL, cold), 16, ())
     assert {"heating", "shear thinning"} <= {*analysis.left_out}
     assert "effective_temperature" not in analysis.at_film.full
+
+
+@pytest.mark.parametrize(("supply", "beyond"), [("-20 degC", True), ("40 degC", False)])
+def test_a_lubricant_outside_of_its_range_is_said(supply, beyond):
+    """By hand: the law of ISO VG 46 is valid from -15 °C to 185 °C, and the supply is 5 K below."""
+    scene = scene_of(JOURNAL, {"oil": "ISO VG 46", "temperature": supply}, load={"force": "2 kN"})
+    analysis = analyse_effects(scene, 16, ())
+    for study in (analysis.at_film, analysis.under_load):
+        assert any("-20 °C" in one and "valid from -15 °C to 185 °C" in one for one in study.outside) == beyond
+        assert bool(study.outside) == beyond
