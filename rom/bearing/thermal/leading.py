@@ -5,10 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.contact.foundation.rounding import share
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.exchange import IN_A_MACHINE, Exchange, Temperatures, exchange_of, temperatures
+from roughfilm.rom.bearing.thermal.exchange import IN_A_MACHINE, Exchange, exchange_of, temperatures
 from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
@@ -48,10 +49,20 @@ def leading_input(
     solution, quantities : the film, with its flows and its power.
     liquid : the lubricant as it is supplied.
     temperature : temperature of the film, K.
-    insulated : whether the model takes walls that take no heat, also where the flow takes away little.
+    insulated : whether the model takes walls that take no heat, whatever the scene gives.
     """
+    if insulated:
+        none = (scene.heat or Heat()).model_copy(update={"heat_transfer": None, "area": None})
+        scene = scene.model_copy(update={"heat": none})
     exchange = exchange_of(scene, solution, quantities, liquid.temperature)
-    found = temperatures(exchange, liquid)
+    try:
+        found = temperatures(exchange, liquid)
+        varied = {
+            words: temperatures(other, liquid).effective
+            for words, other in _varied(scene, solution, quantities, liquid, exchange, insulated=insulated)
+        }
+    except ConvergenceError:
+        return ()
     if found.estimated:
         capacity = float(liquid.heat(np.array([liquid.temperature]))[1][0]) * exchange.renewed
         unit = "W/(m K)" if scene.wide else "W/K"
@@ -63,10 +74,7 @@ def leading_input(
     viscosity, slope = (float(one[0]) for one in liquid.viscosity(np.array([temperature])))
     sensitivity = -slope / viscosity
     follows = 1 + max(sensitivity * (temperature - liquid.temperature), 0.0)
-    changes = {
-        words: (temperatures(other, liquid).effective - found.effective) / follows
-        for words, other in _varied(scene, solution, quantities, liquid, exchange, found)
-    }
+    changes = {words: (effective - found.effective) / follows for words, effective in varied.items()}
     words, change = max(changes.items(), key=lambda pair: abs(pair[1]))
     thicker = float(np.expm1(-sensitivity * change))
     if abs(thicker) < NOTABLE:
@@ -105,7 +113,8 @@ def _varied(
     quantities: Mapping[str, Quantity],
     liquid: Liquid,
     exchange: Exchange,
-    found: Temperatures,
+    *,
+    insulated: bool,
 ) -> Iterator[tuple[str, Exchange]]:
     """The exchange of heat with one input changed, and that input in words."""
     warmer = tuple((flow, temperature + WARMER_SUPPLY) for flow, temperature in exchange.new)
@@ -118,7 +127,7 @@ def _varied(
         other = exchange_of(scene.model_copy(update={"heat": half}), solution, quantities, liquid.temperature)
         yield f"heat.carried_over: with {half.carried_over:g} in place of {heat.carried_over:g}", other
     if exchange.conductance is None:
-        missing = f"heat.heat_transfer and heat.area, which are missing: with {STILL_AIR}"
-        yield missing, replace(exchange, conductance=IN_A_MACHINE * exchange.area)
-    elif found.to_surroundings:
+        where = "the walls, which take no heat" if insulated else "heat.heat_transfer and heat.area, which are missing"
+        yield f"{where}: with {STILL_AIR}", replace(exchange, conductance=IN_A_MACHINE * exchange.area)
+    elif exchange.conductance:
         yield "heat.heat_transfer: with half of it", replace(exchange, conductance=exchange.conductance / 2)

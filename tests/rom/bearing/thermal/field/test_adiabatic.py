@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.ladder import find
+from roughfilm.rom.bearing.thermal import leading
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 
@@ -102,6 +103,22 @@ def test_heat_leaves_as_it_comes_in(wedges):
     assert DENSITY * CAPACITY * flow * rise == pytest.approx(generated, rel=1e-8)
     assert value(result, "heat_to_lubricant_per_width") == pytest.approx(generated, rel=1e-12)
     assert result.numerics.details["energy_imbalance"] < 1e-8
+
+
+def test_a_heat_transfer_that_is_given_changes_nothing_between_insulated_walls(wedges):
+    """Per area of a machine it has no meaning for a wide pad, and this model does not use it."""
+    result = solved(scene(WEDGE, heat={"heat_transfer": "20 W/(m^2*K)", "area": "0.1 m^2"}), 32)
+    assert value(result, "load_per_width") == value(wedges[32], "load_per_width")
+    assert not any("heat.heat_transfer" in one for one in (*result.warnings, *wedges[32].warnings))
+
+
+def test_a_warning_that_has_no_temperature_leaves_the_film(monkeypatch, wedges):
+    def never(*_arguments):
+        raise ConvergenceError("heat: belongs to no temperature")
+
+    monkeypatch.setattr(leading, "temperatures", never)
+    result = solved(scene(WEDGE), 32)
+    assert value(result, "load_per_width") == value(wedges[32], "load_per_width")
 
 
 @pytest.mark.parametrize("approach", ["1 mm/s", "-1 mm/s"])
