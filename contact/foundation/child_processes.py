@@ -1,8 +1,12 @@
 """Programs that end with the process that started them, even if that process is killed."""
 
+import os
 import shutil
+import signal
 import subprocess
+from contextlib import suppress
 from functools import cache
+from pathlib import Path
 
 
 @cache
@@ -19,3 +23,30 @@ def terminate_with_parent() -> tuple[str, ...]:
         return ()
     tried = subprocess.run([*command, "true"], stdin=subprocess.DEVNULL, capture_output=True, check=False)
     return command if tried.returncode == 0 else ()
+
+
+def kill_session(leader: int) -> None:
+    """Kill the process that leads a session, and all of the session, whatever their groups; last this process itself.
+
+    A process that starts while others are killed is found by another look. Without the folder /proc only the group of
+    the leader is killed.
+    """
+    own, killed = os.getpid(), set[int]()
+    while left := _session(leader) - killed - {own}:
+        for process in left:
+            with suppress(ProcessLookupError):
+                os.kill(process, signal.SIGKILL)
+        killed |= left
+    with suppress(ProcessLookupError):
+        os.killpg(leader, signal.SIGKILL)
+
+
+def _session(leader: int) -> set[int]:
+    """The numbers of the processes of a session."""
+    found = set()
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            after_name = stat.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()
+            if int(after_name[3]) == leader:
+                found.add(int(stat.parent.name))
+    return found

@@ -78,7 +78,10 @@ def imports_apart() -> Iterator[None]:
     >>> with imports_apart():
     ...     import calendar
     """
+    global _import
     with _changing:
+        if not _apart and builtins.__import__ is not _timed_import:
+            _import = builtins.__import__  # another library may have put its own there
         _apart.append(block := object())
         builtins.__import__ = _timed_import
     try:

@@ -18,6 +18,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Self
 
+from roughfilm.contact.foundation.child_processes import kill_session
 from roughfilm.contact.foundation.writing.scratch import scratch_directory, temporary_directory
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -132,10 +133,9 @@ def _without_program() -> Iterator[None]:
 
 
 def _kill(process: ForkServerProcess) -> None:
-    """Kill a process and its children, even if the process itself has ended."""
+    """Kill a process and all of its session, such as programs of OpenFOAM, even if the process itself has ended."""
     assert process.pid is not None
-    with suppress(ProcessLookupError):
-        os.killpg(process.pid, signal.SIGKILL)
+    kill_session(process.pid)
 
 
 @contextmanager
@@ -153,8 +153,8 @@ def workers(processes: int, scratch: Path) -> AbstractContextManager[Processes |
 
 
 def _work(pipe: Connection, alive: Connection, scratch: Path) -> None:
-    """Execute calls until the sender ends, in a process group of its own that Ctrl-C does not interrupt."""
-    os.setpgrp()
+    """Execute calls until the sender ends, in a session of its own that Ctrl-C does not interrupt."""
+    os.setsid()
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     tempfile.tempdir = str(scratch)
     threading.Thread(target=_end_with, args=(alive,), daemon=True).start()
@@ -166,7 +166,7 @@ def _work(pipe: Connection, alive: Connection, scratch: Path) -> None:
 def _end_with(alive: Connection) -> None:
     """End this process and its children when the only writer of ``alive`` closes it or dies."""
     alive.poll(None)
-    os.killpg(0, signal.SIGKILL)
+    kill_session(os.getpid())
 
 
 def _answer(call: Callable[[], Any]) -> tuple[Any, Exception | None]:

@@ -86,6 +86,20 @@ def test_python_imports_as_before_once_the_last_of_several_blocks_has_ended(name
     assert builtins.__import__ is plain
 
 
+def test_the_import_of_another_library_is_used_and_stays(named, monkeypatch):
+    plain, seen = builtins.__import__, []
+
+    def hook(name, *where, **more):
+        seen.append(name)
+        return plain(name, *where, **more)
+
+    monkeypatch.setattr(builtins, "__import__", hook)
+    with imports_apart():
+        __import__(name := named("imported_by_a_hook"))
+    assert builtins.__import__ is hook
+    assert name in seen
+
+
 def test_no_import_counts_as_work_of_a_model():
     tasks = [(str(SCENES / f"{scene}.toml"), model, resolution) for scene, model, resolution in SOLVED]
     done = subprocess.run([sys.executable, "-c", IMPORTS, json.dumps(tasks)], capture_output=True, text=True)

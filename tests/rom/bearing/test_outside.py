@@ -140,10 +140,16 @@ def test_no_model_promises_anything_beyond_the_laminar_limit(name, tips):
 
 
 @pytest.mark.parametrize("model", [navier_stokes.MODEL, stokes.MODEL])
-def test_the_models_of_openfoam_are_judged_before_and_after_their_run(model):
-    fast, slow = scene(PAD, speed="60 m/s"), scene(PAD, speed="0.5 m/s")
+def test_the_models_of_openfoam_are_judged_before_their_run(model):
+    if not model.available().available:
+        pytest.skip(f"no OpenFOAM here: {model.available().detail}")
+    fast = scene(PAD, speed="60 m/s")
     verdicts = {one.model: one for one in advise(fast, [model], quantity="load_per_width", within=0.5).considered}
-    assert "exceeds 1440" in verdicts[model.name].reason or not model.available().available
+    assert "exceeds 1440" in verdicts[model.name].reason
+
+
+def test_the_flow_of_openfoam_is_judged_after_its_run():
+    slow = scene(PAD, speed="0.5 m/s")
     thickness, pressure = np.linspace(100e-6, 50e-6, 20), np.zeros(2)
     assert channel_outside(slow, thickness, 0.5 * 100e-6 / 3, pressure) == ()
     (found,) = channel_outside(scene(PAD, speed="10 m/s"), thickness, 10 * 100e-6 / 3, pressure)

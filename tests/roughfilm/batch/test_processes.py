@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from batches import wait_for
 
 import roughfilm as rf
 from roughfilm.batch import executors, solve
@@ -76,6 +77,35 @@ def test_a_process_that_dies_is_no_missing_number(study: Path, monkeypatch: pyte
 def test_a_call_whose_process_dies_raises() -> None:
     with pytest.raises(UnavailableError, match=r"^windows: a process died; if memory is short, give fewer processes$"):
         for_each(os._exit, [(1,), (1,)], 2, lambda *_: None, "windows")
+
+
+def runs(process: str) -> bool:
+    """Whether a process is there and is no dead one that nobody has waited for."""
+    try:
+        return "\nState:\tZ" not in Path(f"/proc/{process}/status").read_text()
+    except FileNotFoundError:
+        return False
+
+
+@pytest.mark.parametrize("dies", [True, False])
+def test_a_process_leaves_no_program_of_another_group(dies: bool, tmp_path: Path) -> None:
+    note = tmp_path / "program"
+    code = (
+        "import os, signal, subprocess, time\n"
+        "program = subprocess.Popen(['sleep', '300'], process_group=0)\n"
+        f"open({str(note) + '.part'!r}, 'w').write(str(program.pid))\n"
+        f"os.replace({str(note) + '.part'!r}, {str(note)!r})\n"
+        + ("os.kill(os.getpid(), signal.SIGKILL)\n" if dies else "time.sleep(300)\n")
+    )
+    with executors.Processes(1, tmp_path) as executor:
+        call = executor.submit(exec, code)
+        wait_for(note.is_file)
+        if dies:
+            with pytest.raises(BrokenExecutor):
+                call.result(60)
+        else:
+            executor.shutdown()
+    assert wait_for(lambda: not runs(note.read_text()))
 
 
 @pytest.mark.parametrize("processes", [0, -1, 1.5, True, "2", 10**6])
