@@ -55,9 +55,9 @@ def test_the_contact_is_that_of_the_surface_the_profile_is_of():
     for seed in range(3):
         noise = np.random.default_rng(seed).standard_normal((512, 512))
         heights = np.fft.irfft2(np.fft.rfft2(noise) * amplitude)
-        areas.append(rf.press(1e-6 * heights / heights.std(), spacing=1e-6, modulus=1e11, load=1e9).area_fraction)
-    made = [make(fit_profile(Profile(heights=1e-6 * z, spacing=1e-6))) for z in lines(5, count=4, points=2560)]
-    found = [rf.press(one, modulus=1e11, load=1e9).area_fraction for one in made]
+        areas.append(rf.press(1e-7 * heights / heights.std(), spacing=1e-6, modulus=1e11, load=1e8).area_fraction)
+    made = [make(fit_profile(Profile(heights=1e-7 * z, spacing=1e-6))) for z in lines(5, count=4, points=2560)]
+    found = [rf.press(one, modulus=1e11, load=1e8).area_fraction for one in made]
     assert np.mean(found) == pytest.approx(np.mean(areas), rel=0.12)
 
 
