@@ -180,7 +180,7 @@ def prepare(surface: Surface, recipe: str | Path | Mapping[str, Any] | None = No
     >>> measured = rf.Surface(heights=1e-6 * np.random.default_rng(1).normal(size=(60, 50)), spacing=(1e-6, 1e-6))
     >>> prepared = rf.prepare(measured, {"edges": {"direction": "both"}})
     >>> prepared.surface.shape, prepared.record["edges"]["direction"]
-    ((64, 64), 'both')
+    ((60, 50), 'both')
     """
     if not isinstance(surface, Surface):
         raise InputError(f"surface: got {type(surface).__name__}; give a Surface, such as read_surface() returns")

@@ -13,6 +13,7 @@ SUBJECTS: Mapping[str, str] = {
     "interface.studies": "Studies",
     "interface.cases": "OpenFOAM cases",
     "interface.surfaces": "Surfaces",
+    "interface.profiles": "Profiles",
     "interface.windows": "Windows of a surface",
     "interface.fitting": "Descriptions of measured surfaces",
     "interface.curves": "Curves and effects",

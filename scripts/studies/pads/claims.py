@@ -23,8 +23,11 @@ def judge(study: PadStudy) -> list[Claim]:
 
 
 def relative(study: PadStudy, name: tuple[str, float, float]) -> Array:
-    """The change of the load by inertia over the load by the Reynolds equation, shape (ratios, numbers)."""
-    return study.map(name, lambda pad: study.by_inertia(pad) / study.without(pad))
+    """The change of the load by inertia over the load by the Reynolds equation, shape (ratios, numbers).
+
+    It is NaN where a pad carries nothing without inertia, as a parallel one that is textured throughout.
+    """
+    return study.map(name, lambda pad: study.by_inertia(pad) / (study.without(pad) or np.nan))
 
 
 def reduced(study: PadStudy) -> Array:

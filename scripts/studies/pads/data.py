@@ -34,7 +34,7 @@ RATIOS = (8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0)
 NUMBERS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 400.0)
 """Reynolds numbers ρ u h/η."""
 
-NO_INERTIA = 1e-6
+NO_INERTIA = 1e-3
 """Reynolds number that stands for none."""
 
 CHECKED_RATIOS, CHECKED_NUMBERS = (8.0, 24.0, 64.0), (20.0, 200.0)

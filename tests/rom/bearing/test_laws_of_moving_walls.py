@@ -44,7 +44,7 @@ def test_the_grids_of_models_with_temperature_have_the_laws_of_given_films_that_
     journal = kind_of_scene(scene({"shape": "journal", "radius": "50 mm", "clearance": "100 um", "eccentricity": 0.5}))
     models = ("reynolds_cavitating", "heat_balance", "adiabatic", "across")
     assert [journal.laws_of_grids(model) for model in models] == ["bearing", *["heated_bearing"] * 3]
-    assert journal.names_of_laws == ("bearing", "heated_bearing")
+    assert journal.names_of_laws == ("bearing", "heated_bearing", "hot_wedge")
     assert [kind_of_scene(one).laws_of_grids("across") for one in (placed, free)] == ["placed_bearing", "free_bearing"]
     without = lawful(table(), journal.names_of_laws, holds=False)
     assert not {grid.kind for grid in without.grids} & {"bearing", "heated_bearing"}

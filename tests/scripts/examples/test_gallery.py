@@ -640,6 +640,13 @@ def test_the_rms_height_over_the_nesting_index_is_that_of_the_waves_that_are_kep
         assert rms == pytest.approx(np.hypot(*kept) / np.sqrt(2), rel=1e-3)
 
 
+def test_a_surface_of_a_profile_has_the_rms_height_and_slope_of_the_measured_surface() -> None:
+    """The rms slope of the autocorrelation exp(-(r/λ)²) is √2 σ/λ; a profile of 500 λ knows it to some per cent."""
+    values = values_of("surfaces/surface_of_a_profile")
+    assert values["sq"] == pytest.approx(1e-6, rel=0.08)
+    assert values["slope"] == pytest.approx(np.sqrt(2) * 0.1, rel=0.08)
+
+
 def test_windows_lead_to_the_rms_height_of_the_whole_surface() -> None:
     """The heights of the surface have an rms of 1 µm; its windows lack what their means vary by.
 

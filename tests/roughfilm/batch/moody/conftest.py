@@ -1,3 +1,3 @@
-"""The ladder of the tests themselves stays as it is: what every Python with this folder imports is no module of them."""
+"""The ladder of the tests themselves stays as it is: the file that adds a model to others is no module of theirs."""
 
 collect_ignore = ["sitecustomize.py"]
