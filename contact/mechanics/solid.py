@@ -52,6 +52,19 @@ def composite_modulus(solid: Solid, counter: Solid | None = None) -> float:
     return 1 / compliance
 
 
+def contact_outside(load: float, area_fraction: float, composite_modulus: float) -> tuple[str, ...]:
+    """The sentence on a mean pressure of the area in contact above 0.3 E*; see :func:`beyond_elasticity`.
+
+    Parameters
+    ----------
+    load : pressure over the nominal area, Pa.
+    area_fraction : area in contact over the nominal area.
+    composite_modulus : E*, Pa.
+    """
+    mean = load / area_fraction if area_fraction > 0 else 0.0
+    return beyond_elasticity(mean, composite_modulus, "mean pressure of the contacts")
+
+
 def beyond_elasticity(pressure: float, composite_modulus: float, what: str = "peak pressure") -> tuple[str, ...]:
     """The sentence on a pressure above 0.3 E*, for which linear elasticity does not hold; none below it.
 

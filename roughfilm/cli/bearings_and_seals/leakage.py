@@ -12,7 +12,7 @@ from rich.table import Table
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.writing.kinds import PAGE
-from roughfilm.contact.mechanics.solid import beyond_elasticity
+from roughfilm.contact.mechanics.solid import contact_outside
 from roughfilm.contact.mechanics.store import finished, load_contact
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, is_joined_at_pixel_0, joint_mismatch
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
@@ -132,9 +132,8 @@ def _entries(
         name: Column(values=values, unit=unit) for name, (unit, values) in columns_of(seal, [*rows.values()]).items()
     }
     outside = {
-        load: beyond_elasticity(row.pressure_max, seal.composite_modulus)
+        load: contact_outside(load, row.area_fraction, seal.composite_modulus)
         for load, row in finished(body.contacts, body.inputs).items()
-        if row.pressure_max is not None
     }
     quantities: dict[str, Any] = {
         "load": {"value": answer.load, "unit": "Pa"},
