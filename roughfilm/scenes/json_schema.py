@@ -103,7 +103,7 @@ _ALSO: Mapping[str, Callable[[_SceneSchema, dict[str, Any]], dict[str, Any]]] = 
     "rows": _or_text,
     "_constant": _or_heat_capacity,
     "_number_or_table": _or_number,
-    "_described": _SceneSchema._of_surface,
+    "surface_entry": _SceneSchema._of_surface,
 }
 """What a file may hold in other forms than that of the class, by the function that reads it."""
 
