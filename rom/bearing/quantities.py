@@ -385,6 +385,8 @@ class Outputs:
         that an iteration around the film leaves, from the films on their grids, the finest first.
     details : details(solution): further numbers of the solver by name.
     warnings : warnings(scene, solution): warnings in addition to those of every film.
+    outside : outside(scene, solution): the ways in which it is outside the range of the model, in addition to those
+        of every film.
     of_finest : of_finest(scene, solution): estimates without uncertainty, of the finest film alone.
     estimates : quantities that may have no uncertainty for a reason that a warning of their own states.
     """
@@ -399,6 +401,7 @@ class Outputs:
     )
     details: Callable[[Solution], Mapping[str, float]] = lambda _solution: {}
     warnings: Callable[[Bearing, Solution], Sequence[str]] = lambda _scene, _solution: ()
+    outside: Callable[[Bearing, Solution], tuple[str, ...]] = lambda _scene, _solution: ()
     of_finest: Callable[[Bearing, Solution], Mapping[str, Quantity]] = lambda _scene, _solution: {}
     estimates: Collection[str] = ()
 

@@ -183,7 +183,7 @@ def solve(
             **origin_of(solution.problem.shape.roughness),
         ),
         warnings=tuple(warnings),
-        outside=film_outside(found.scene, solution),
+        outside=(*film_outside(found.scene, solution), *outputs.outside(found.scene, solution)),
     )
 
 

@@ -1,5 +1,7 @@
 """A dry contact, and a bearing whose asperities are known in closed form, that tests of scenes and rungs share."""
 
+import math
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -84,10 +86,11 @@ def tips(tmp_path):
             area_fraction=load / 1e9,
         )
 
-    def table(**last: Any) -> AsperityTable:
-        """``last`` are factors of the closest point."""
+    def table(*, peak: float = math.nan, **last: Any) -> AsperityTable:
+        """``peak`` is the largest pressure of the spots, Pa, and ``last`` are factors of the closest point."""
         pressed = [point(touching - g) for g in np.geomspace(touching - closest, 0.01 * touching, 7)[1:]]
         points = (point(closest, **last), *pressed, *(point(h) for h in (touching, 4e-6, 50e-6)))
+        points = tuple(replace(one, peak_pressure=peak) if one.load else one for one in points)
         return AsperityTable(factors=FactorTable(points=points, peak=touching, rms=1e-6))
 
     def scene(geometry: dict[str, Any], *, path: Path = tmp_path / "table.h5", **more: Any) -> Bearing:
@@ -108,8 +111,9 @@ def tips(tmp_path):
         assert isinstance(found, Bearing)
         return found
 
-    def stored(path: Path, **last: Any) -> Path:
-        inputs = Inputs(heights=np.eye(2), spacing=(1e-6, 1e-6), settings={"code": "closed form"})
+    def stored(path: Path, *, modulus: float | None = None, **last: Any) -> Path:
+        settings = {"code": "closed form", "composite_modulus": modulus}
+        inputs = Inputs(heights=np.eye(2), spacing=(1e-6, 1e-6), settings=settings)
         save_table(path, inputs, table(**last).factors)
         return path
 

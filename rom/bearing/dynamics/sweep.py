@@ -217,7 +217,11 @@ def dynamic_point(
         residual=max(instant.residual, instant.force_residual),
         estimated_heat_transfer=0.0 if heated is None else heated.estimated,
         cpu_s=working_time() - cpu,
-        outside=(*film_outside(placed(film, instant), solution), *_of_lubricant(scene, solved[-1])),
+        outside=(
+            *film_outside(placed(film, instant), solution),
+            *(() if (spots := walls.spots(numbers["film_min"])) is None else spots.outside),
+            *_of_lubricant(scene, solved[-1]),
+        ),
     )
 
 

@@ -193,5 +193,5 @@ def under_load(variant: Variant, pressure: float, cells: int, progress: Progress
         unknown=infinite_flows(here.solution),
         balance=found.balance,
         cpu_s=working_time() - cpu,
-        outside=film_outside(here.scene, here.solution),
+        outside=(*film_outside(here.scene, here.solution), *here.variant.outputs.outside(here.scene, here.solution)),
     )

@@ -8,6 +8,7 @@ import numpy as np
 from roughfilm.rom.bearing.equilibrium.expected import MIN_FILM_OVER_PEAK
 from roughfilm.rom.bearing.film import FlooredFlowFactors
 from roughfilm.rom.bearing.free.lay import oblique
+from roughfilm.rom.bearing.mixed.asperities import SpotPressures
 from roughfilm.rom.bearing.mixed.asperity_table import HERTZ_POWER, AsperityTable
 from roughfilm.rom.bearing.mixed.film import mixed_problem
 from roughfilm.rom.bearing.mixed.wall import asperities_of
@@ -44,6 +45,10 @@ class Walls:
         if self.factors is None:
             return 0.0
         return float(oblique(self.factors(np.array([film])))[0]) ** (2 if even else 1)
+
+    def spots(self, film: float) -> SpotPressures | None:
+        """The pressures on the spots in contact at a film thickness, m; None of walls that do not touch."""
+        return None if self.contact is None else self.contact.spot_pressures(max(film, self.contact.closest))
 
     def of_contact(self, film: float) -> tuple[float, float]:
         """The uncertainty of contact pressures at a film thickness: relative, and that of the film, m, which follows.

@@ -240,12 +240,15 @@ def march_bearing(
                 warnings.append(
                     f"{', '.join(sorted(unknown))}: unknown uncertainty, as the roughness has too few points"
                 )
+    walls = walls_of(duty.scene)
+    spots = walls.spots(float(series["film_min"].min()))
+    warnings += () if spots is None else spots.warnings
     if "temperature" in series.units:
         warnings += scene.lubricant.hot(float(series["temperature"].max()) + ZERO_CELSIUS)
         held = (series.time >= summary.first) & (series.time <= summary.last)
         transfers = series["estimated_heat_transfer"][held].tolist()
         warnings += missing_in_series(transfers, "steps in that time", "the uncertainty does not contain")
-    infinite = Observer(duty=duty, film=film_at(duty, cells, walls_of(duty.scene))).infinite_flows
+    infinite = Observer(duty=duty, film=film_at(duty, cells, walls)).infinite_flows
     if infinite:
         quantities |= {
             f"{name}_mean": replace(quantities[f"{name}_mean"], uncertainty=None) for name in sorted(infinite)
@@ -272,7 +275,7 @@ def march_bearing(
         quantities=quantities,
         titles=titles,
         warnings=tuple(warnings),
-        outside=_outside(duty.scene, series),
+        outside=(*_outside(duty.scene, series), *(() if spots is None else spots.outside)),
     )
     if path is not None:
         finish(path, series, entries_of(quantities))

@@ -11,6 +11,7 @@ import scipy
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.rom.bearing.mixed.asperities import SpotPressures
 from roughfilm.rom.homogenization.gap_factors import GapFactors
 from roughfilm.rom.homogenization.table.factor_table import FactorTable, Point
 
@@ -19,6 +20,9 @@ HERTZ_POWER = 1.5
 
 INTERPOLATION_SAFETY_FACTOR = 2.0
 """Safety factor of the interpolation error of the separation between loads."""
+
+NO_AREA = 1e-300
+"""Area fraction that stands for none."""
 
 SEPARATION_TOLERANCE = 1e-12
 """Tolerated separation below the smallest one, over that of first contact (round-off)."""
@@ -101,6 +105,21 @@ class AsperityTable:
         """The real over the nominal contact area; raises InputError below the smallest separation."""
         return self._over_approach(separation, self._log_area, HERTZ_POWER - 0.5)
 
+    def spot_pressures(self, separation: float) -> SpotPressures:
+        """The pressures on the spots in contact: p_c over the area fraction, and the peak between those of the points.
+
+        Raises
+        ------
+        InputError
+            Below the smallest separation.
+        """
+        alpha = np.array([separation])
+        load, area = float(self.contact_pressure(alpha)[0]), float(self.area_fraction(alpha)[0])
+        peaks = [point.peak_pressure for point in self._pressed]
+        peak = float(np.interp(self.touching - separation, self._approaches, peaks)) if load > 0 else 0.0
+        mean = load / area if area > NO_AREA else 0.0
+        return SpotPressures(mean=mean, peak=peak, composite_modulus=self.factors.composite_modulus)
+
     def pressure_uncertainty(self, separation: Array) -> Array:
         """The relative uncertainty of the contact pressure from grid and interpolation.
 
@@ -161,7 +180,7 @@ class AsperityTable:
 
     @cached_property
     def _log_area(self) -> "scipy.interpolate.PchipInterpolator":
-        areas = [max(point.area_fraction, 1e-300) for point in self._pressed]
+        areas = [max(point.area_fraction, NO_AREA) for point in self._pressed]
         return scipy.interpolate.PchipInterpolator(np.log(self._approaches), np.log(areas))
 
     @cached_property

@@ -1,5 +1,6 @@
 """Films of walls that never touch, smooth or averaged over their roughness, for curves over speed."""
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -8,6 +9,7 @@ import numpy as np
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.rom.bearing.equilibrium.expected import closest_film, first_film
 from roughfilm.rom.bearing.film import averaged_films
+from roughfilm.rom.bearing.mixed.asperities import SpotPressures
 from roughfilm.rom.bearing.mixed.film import MixedFilm
 from roughfilm.rom.bearing.scene import Bearing, BearingLoad
 from roughfilm.rom.cavitation.problem import Problem
@@ -63,6 +65,10 @@ class Parted:
     def area_fraction(self, separation: Array) -> Array:
         """0, the fraction of the nominal area in contact."""
         return np.zeros_like(separation)
+
+    def spot_pressures(self, _separation: float) -> SpotPressures:
+        """0, the pressures on spots in contact, Pa."""
+        return SpotPressures(mean=0.0, peak=0.0, composite_modulus=math.inf)
 
     def factor_uncertainty(self, _separation: float) -> float:
         """The relative uncertainty of the flow factors."""

@@ -114,10 +114,16 @@ def flash_quantities(scene: Bearing, solution: Solution) -> dict[str, Quantity]:
 
 
 def mixed_warnings(scene: Bearing, solution: Solution) -> list[str]:
-    """Warnings about a flash temperature outside of the range of its estimate."""
+    """Warnings about a peak pressure beyond linear elasticity, and a flash temperature outside of its range."""
+    spots = asperities_of(scene).spot_pressures(_narrowest(solution))
     pressure = _contact(scene, solution).pressure_max
     flash = flash_temperature(scene, pressure, scene.boundary_friction)
-    return [] if flash is None else flash_warnings(scene, pressure, flash)
+    return [*spots.warnings, *([] if flash is None else flash_warnings(scene, pressure, flash))]
+
+
+def mixed_outside(scene: Bearing, solution: Solution) -> tuple[str, ...]:
+    """The sentence on contacts whose mean pressure is beyond linear elasticity, at the narrowest place."""
+    return asperities_of(scene).spot_pressures(_narrowest(solution)).outside
 
 
 MIXED_OUTPUTS = Outputs(
@@ -125,6 +131,7 @@ MIXED_OUTPUTS = Outputs(
     factor_uncertainties=mixed_uncertainties,
     fields=mixed_fields,
     warnings=mixed_warnings,
+    outside=mixed_outside,
     of_finest=flash_quantities,
 )
 

@@ -378,6 +378,7 @@ def stribeck_point(state: MixedState, search: Search, pressure: float) -> Stribe
         estimated_heat_transfer=None if heated is None else heated.estimated,
         outside=(
             *film_outside(state.scene, state.solution),
+            *search.asperities.spot_pressures(separation).outside,
             *([] if heated is None else search.scene.lubricant.beyond(heated.effective, heated.effective)),
         ),
     )

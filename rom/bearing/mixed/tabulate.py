@@ -132,6 +132,7 @@ def tabulate_pressed(
             load=load,
             area_fraction=contact.area_fraction,
             plastic_fraction=contact.plastic_fraction,
+            peak_pressure=float(contact.pressure.max()),
             separation_uncertainty=uncertainty,
         )
         with keeping:
@@ -149,7 +150,7 @@ def tabulate_pressed(
                     f"asperities: loads of {two.load:.3g} and {one.load:.3g} Pa close the gap equally; bring the "
                     f"hardness of {hardness:.3g} Pa nearer to the composite modulus of {composite_modulus:.3g} Pa"
                 )
-        return AsperityTable(factors=replace(open_table, points=tuple(ordered)))
+        return AsperityTable(factors=replace(open_table, points=tuple(ordered), composite_modulus=composite_modulus))
 
     def errors(others: Sequence[Point], point: Point) -> tuple[float, float, float]:
         table = made(others)

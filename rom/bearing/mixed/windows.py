@@ -13,7 +13,7 @@ import scipy
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.windows.average import WindowAverage, window_average
-from roughfilm.rom.bearing.mixed.asperities import Asperities
+from roughfilm.rom.bearing.mixed.asperities import Asperities, SpotPressures
 from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
 from roughfilm.rom.bearing.mixed.stribeck import TEMPERATURES, UNCERTAIN, LiftOff, StribeckCurve, StribeckPoint
 from roughfilm.rom.bearing.scene import Bearing
@@ -75,6 +75,15 @@ class CommonPlane:
     def area_fraction(self, separation: Array) -> Array:
         """The real over the nominal contact area."""
         return self._mean(lambda wall: wall.area_fraction(separation))
+
+    def spot_pressures(self, separation: float) -> SpotPressures:
+        """The largest pressures on the spots of any window at a separation, m."""
+        own = [wall.spot_pressures(separation) for wall in self.walls]
+        return SpotPressures(
+            mean=max(one.mean for one in own),
+            peak=float(np.fmax.reduce([one.peak for one in own])),
+            composite_modulus=min(one.composite_modulus for one in own),
+        )
 
     def factor_uncertainty(self, separation: float) -> float:
         """The mean relative uncertainty of the flow factors."""

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import log, sqrt
+from math import inf, log, nan, sqrt
 from typing import Any, Self
 
 import numpy as np
@@ -51,6 +51,7 @@ class Point:
     cpu_s : CPU time, s.
     load : mean pressure on the nominal area, Pa; 0 for undeformed walls.
     area_fraction, plastic_fraction : those of :class:`roughfilm.contact.mechanics.contact.Contact`.
+    peak_pressure : largest contact pressure, Pa; NaN where it is unknown, as in tables of older versions.
     separation_uncertainty : discretisation uncertainty of the separation at the load, m.
     missed, friction_missed : estimated interpolation errors of A and B and of d and e next to here, in the measure of
         the tolerance of :func:`roughfilm.rom.homogenization.table.tabulate.tabulate`.
@@ -71,6 +72,7 @@ class Point:
     load: float = 0.0
     area_fraction: float = 0.0
     plastic_fraction: float = 0.0
+    peak_pressure: float = nan
     separation_uncertainty: float = 0.0
     missed: float = 0.0
     friction_missed: float = 0.0
@@ -99,6 +101,7 @@ class FactorTable:
     points : two or more points.
     peak : highest point of the roughness above its mean, m.
     rms : rms height, m.
+    composite_modulus : E* of the solids in contact, Pa; infinite without contact.
     scale : factor that multiplies the heights of the surface and all gaps.
     origin : entries for the provenance of a result; empty for a table that was not made for the result.
     """
@@ -106,6 +109,7 @@ class FactorTable:
     points: Sequence[Point]
     peak: float
     rms: float
+    composite_modulus: float = inf
     scale: float = 1.0
     origin: Mapping[str, Any] = field(default_factory=dict, compare=False)
 

@@ -1,6 +1,7 @@
 """Tables of flow factors in HDF5 files with a digest of their inputs."""
 
 import json
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
@@ -32,6 +33,7 @@ NUMBERS = {
     "load": "Pa",
     "area_fraction": "1",
     "plastic_fraction": "1",
+    "peak_pressure": "Pa",
     "separation_uncertainty": "m",
     "missed": "1",
     "friction_missed": "1",
@@ -53,6 +55,7 @@ LAYOUT = {
         for name in FACTORS
     },
     "points/iterations": Numbers(shape=ROWS, kind=int),
+    "points/peak_pressure": Numbers(shape=ROWS, missing=True, optional=True),
     "points/slopes": Numbers(shape=("rows", 7), missing=True),
     "points/sealed": Numbers(shape=("rows", 2), kind=bool),
     "@peak": Numbers(),
@@ -194,6 +197,8 @@ def _table(content: Content) -> FactorTable:
     gaps = stored["points/mean_gap"]
     if gaps.size < 2 or not (np.diff(gaps, prepend=0.0) > 0).all():
         raise content.fault("points/mean_gap", "has no two gaps in increasing order")
+    if stored["points/peak_pressure"] is None:
+        stored["points/peak_pressure"] = np.full(gaps.size, np.nan)
     columns = {
         group: {name: stored[f"{group}/{name}"] for name in (*FACTORS, *more)}
         for group, more in (("points", NUMBERS), ("uncertainty", ()))
@@ -212,7 +217,13 @@ def _table(content: Content) -> FactorTable:
         )
         for row, sealed in enumerate(stored["points/sealed"])
     ]
-    return FactorTable(points=points, peak=stored["@peak"], rms=stored["@rms"])
+    modulus = content.one("@settings", Json(kind=Solids)).composite_modulus
+    return FactorTable(
+        points=points,
+        peak=stored["@peak"],
+        rms=stored["@rms"],
+        composite_modulus=math.inf if modulus is None else modulus,
+    )
 
 
 def _factors(columns: Mapping[str, Array], row: int, sealed: Array) -> FlowFactors:

@@ -268,6 +268,8 @@ def curve_entries(
         if (missing := len(speeds) - len(curve.points))
     ]
     warnings += outside_warnings(scene, curves)
+    if wall is not None:
+        warnings += wall.asperities.spot_pressures(min(point.separation for point in points)).warnings
     warnings += scene.lubricant.left_out_heat
     warnings += flash_warnings_of(scene, points)
     if cells is not None and scene.asperities is not None and scene.asperities.solid_heat is not None:

@@ -13,6 +13,7 @@ from roughfilm.rom.bearing.mixed.asperity_table import AsperityTable
 from roughfilm.rom.bearing.mixed.patir_cheng_table import patir_cheng_table
 from roughfilm.rom.bearing.mixed.tabulate import tabulate_pressed
 from roughfilm.rom.homogenization.flow_factors import flow_factors
+from roughfilm.rom.homogenization.table import store
 from roughfilm.rom.homogenization.table.store import load_table, save_table
 
 MODULUS, HARDNESS = 200e9, 4e9
@@ -131,6 +132,20 @@ def test_a_single_wave_carries_what_westergaard_says():
     assert result == pytest.approx(exact, abs=2 / 64)
 
 
+def test_the_pressures_on_the_spots_are_those_of_westergaard():
+    nodes, loads = 128, np.geomspace(0.02, 0.6, 9) * 2e9 * np.pi
+    heights = np.tile(1e-6 * np.cos(2 * np.pi * np.arange(nodes) / nodes)[:, None], (1, 16))
+    table = tabulate_pressed(heights, (100e-6 / nodes, 1e-6), MODULUS, loads=loads, tolerance=0.02)
+    for load in (0.1 * 2e9 * np.pi, 0.5 * 2e9 * np.pi):
+        exact = Westergaard(amplitude=1e-6, wavelength=100e-6, composite_modulus=MODULUS, load=load)
+        spots = table.spot_pressures(table.separation_at(load))
+        assert spots.peak == pytest.approx(float(exact.pressure(0.0)), rel=0.01)
+        assert spots.mean == pytest.approx(load / exact.area_fraction, rel=0.07)
+        assert spots.composite_modulus == MODULUS
+    parted = table.spot_pressures(1.01 * table.touching)
+    assert (parted.mean, parted.peak) == (0, 0)
+
+
 @pytest.mark.parametrize("ask", ["__call__", "contact_pressure", "mean_gap", "area_fraction", "pressure_uncertainty"])
 def test_separations_below_the_largest_load_are_refused(elastic, ask):
     with pytest.raises(InputError, match=r"it must be at least .* where the contact pressure is 1e\+09 Pa"):
@@ -168,13 +183,25 @@ def test_two_threads_make_the_same_table(elastic):
 
 
 def test_a_table_is_read_back_from_its_file(elastic, tmp_path):
-    inputs = Inputs(heights=HEIGHTS, spacing=SPACING, settings={"rule": "linear"})
+    inputs = Inputs(heights=HEIGHTS, spacing=SPACING, settings={"composite_modulus": MODULUS})
     save_table(tmp_path / "T.h5", inputs, elastic.factors)
     again = AsperityTable(factors=load_table(tmp_path / "T.h5"))
     alpha = np.linspace(elastic.closest, 3 * elastic.touching, 50)
     assert np.array_equal(again.contact_pressure(alpha), elastic.contact_pressure(alpha))
     assert np.array_equal(again(alpha).along, elastic(alpha).along)
     assert np.array_equal(again.pressure_uncertainty(alpha), elastic.pressure_uncertainty(alpha))
+    assert again.spot_pressures(alpha[0]) == elastic.spot_pressures(alpha[0])
+
+
+def test_a_table_of_an_older_version_has_no_peak_but_a_mean(tips, tmp_path, monkeypatch):
+    with monkeypatch.context() as older:
+        older.delitem(store.NUMBERS, "peak_pressure")
+        path = tips.stored(tmp_path / "T.h5", modulus=1e9, peak=2e9)
+    spots = AsperityTable(factors=load_table(path)).spot_pressures(tips.closest)
+    assert np.isnan(spots.peak)
+    assert spots.warnings == ()
+    assert spots.mean == pytest.approx(1e9)
+    assert len(spots.outside) == 1
 
 
 def test_a_hardness_at_which_no_load_moves_the_walls_is_an_error():

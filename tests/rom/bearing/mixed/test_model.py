@@ -9,6 +9,8 @@ from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.closed_forms.sliding import linear_slider
+from roughfilm.rom.bearing.march.solve import march_bearing
+from roughfilm.rom.bearing.mixed.stribeck import stribeck
 from roughfilm.rom.ladder.model import Effect, ladder, of_kind, one_effect_away
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene, scene_entries
@@ -245,3 +247,32 @@ def test_a_roughness_of_few_points_has_no_uncertainty_and_a_warning(changes):
     assert "contact_load_per_width" not in known
     assert value(result, "contact_load_per_width") > 0
     assert any("contact_load_per_width" in warning and "too few points" in warning for warning in result.warnings)
+
+
+MEAN, PEAK, MODULUS = 1e9, 1.5e9, {"soft": 3e9, "firm": 4e9, "stiff": 6e9}
+
+
+@pytest.mark.parametrize("name", MODULUS)
+def test_spots_beyond_linear_elasticity_are_named_and_beyond_their_mean_promise_nothing(tips, tmp_path, name):
+    path = tips.stored(tmp_path / "T.h5", modulus=MODULUS[name], peak=PEAK)
+    scene = tips.scene(PARALLEL, path=path)
+    limit = 0.3 * MODULUS[name]
+    result = MIXED.solve(scene, Request(resolution=16))
+    (curve,) = stribeck(scene, [0.05], [5e6], resolution=16)
+    moving = scene.model_copy(update={"motion": scene.motion.model_copy(update={"approach": -1e-6})})
+    march = march_bearing(moving, end=0.01, steps=2, cells=(16, 16), uncertain=False)
+    peaks, means = (
+        [any(f"{which} pressure of the contacts" in one for one in words) for words in found]
+        for which, found in (
+            ("peak", (result.warnings, march.warnings)),
+            ("mean", (result.outside, curve.points[0].outside, march.outside)),
+        )
+    )
+    assert peaks == 2 * [limit < PEAK]
+    assert means == 3 * [limit < MEAN]
+
+
+def test_walls_that_do_not_touch_have_no_spots(tips, tmp_path):
+    path = tips.stored(tmp_path / "T.h5", modulus=1e6, peak=PEAK)
+    result = MIXED.solve(tips.scene(PARALLEL | {"film": "4 um"}, path=path), Request(resolution=16))
+    assert not any("elasticity" in one for one in (*result.warnings, *result.outside))
