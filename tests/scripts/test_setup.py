@@ -22,7 +22,10 @@ sleep 1.5
 
 
 def set_up(place: Path, pip: str, *, terminal: bool = False, **environment: str) -> subprocess.CompletedProcess[str]:
-    """The set-up of a small tree with a script instead of pip, which speaks every second."""
+    """The set-up of a small tree with a script instead of pip, which speaks every second.
+
+    Only the first call of Python, which is that of pip with the list of packages, runs the script.
+    """
     (place / "scripts").mkdir()
     script = (ROOT / "scripts" / "setup").read_text(encoding="utf-8")
     assert script.count("\nevery=10 ") == 1
@@ -31,15 +34,18 @@ def set_up(place: Path, pip: str, *, terminal: bool = False, **environment: str)
     (place / "pyproject.toml").write_text("", encoding="utf-8")
     python = place / ".venv" / "bin" / "python"
     python.parent.mkdir(parents=True)
+    version = '[ "$1" = --version ] && { echo Python 3.11; exit; }\n'
+    first = f'[ -e "{place}/called" ] && exit\ntouch "{place}/called"\n'
     logged = 'while [ $# -gt 0 ]; do [ "$1" = --log ] && log=$2; shift; done\n'
-    python.write_text(f'#!/bin/bash\n[ "$1" = --version ] && {{ echo Python 3.11; exit; }}\n{logged}{pip}\n', "utf-8")
+    python.write_text(f"#!/bin/bash\n{version}{first}{logged}{pip}\n", "utf-8")
     python.chmod(0o755)
     command = ["bash", str(place / "scripts" / "setup")]
     if terminal:
         command = ["script", "--quiet", "--return", "--command", " ".join(command), "/dev/null"]
-    known = {"PATH": os.environ["PATH"], "HOME": str(place), "ROUGHFILM_SYSTEM_PACKAGES": "no"}
+    programs = f"{place / 'programs'}:{os.environ['PATH']}"
+    own = {"PATH": programs, "HOME": str(place), "ROUGHFILM_SYSTEM_PACKAGES": "no"}
     return subprocess.run(
-        command, env={**known, **environment}, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60
+        command, env={**own, **environment}, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60
     )
 
 
@@ -90,3 +96,19 @@ def test_where_pip_fails_the_set_up_says_what_to_do(tmp_path, fault):
     assert remedy in line
     assert ".venv/pip.log" in done.stderr
     assert not (tmp_path / ".venv" / "roughfilm-stamp").exists()
+
+
+def test_graphics_libraries_are_installed_while_pip_works(tmp_path):
+    """Each of pip and apt-get ends after the other has begun."""
+    pip, apt = (
+        f'touch "{tmp_path}/{own}"; until [ -e "{tmp_path}/{other}" ]; do sleep 0.1; done'
+        for own, other in (("pip", "apt"), ("apt", "pip"))
+    )
+    stand_ins = {"id": "echo 0", "dpkg": "exit 1", "apt-get": f'[ "$1" = update ] || {{ {apt}; }}'}
+    (tmp_path / "programs").mkdir()
+    for name, words in stand_ins.items():
+        (tmp_path / "programs" / name).write_text(f"#!/bin/bash\n{words}\n", "utf-8")
+        (tmp_path / "programs" / name).chmod(0o755)
+    done = set_up(tmp_path, pip, ROUGHFILM_SYSTEM_PACKAGES="yes")
+    assert done.returncode == 0, done.stderr
+    assert "setup: installing graphics libraries" in done.stderr
