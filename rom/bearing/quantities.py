@@ -381,8 +381,8 @@ class Outputs:
     factor_uncertainties : factor_uncertainties(scene, solution, quantities): uncertainty of each quantity, in its unit,
         that comes from flow factors and contact pressures.
     fields : fields(scene, solution): fields in addition to those of every film.
-    iteration_uncertainties : iteration_uncertainties(levels, quantities): uncertainty of each quantity, in its unit,
-        that an iteration around the film leaves, from the films on their grids, the finest first.
+    iteration_uncertainties : iteration_uncertainties(scene, levels, quantities): uncertainty of each quantity, in its
+        unit, that an iteration around the film leaves, from the films on their grids, the finest first.
     details : details(solution): further numbers of the solver by name.
     warnings : warnings(scene, solution): warnings in addition to those of every film.
     outside : outside(scene, solution): the ways in which it is outside the range of the model, in addition to those
@@ -396,8 +396,8 @@ class Outputs:
         factor_uncertainties
     )
     fields: Callable[[Bearing, Solution], Fields] = lambda _scene, _solution: {}
-    iteration_uncertainties: Callable[[Sequence[Solution], Mapping[str, Quantity]], Mapping[str, float]] = (
-        lambda _levels, _quantities: {}
+    iteration_uncertainties: Callable[[Bearing, Sequence[Solution], Mapping[str, Quantity]], Mapping[str, float]] = (
+        lambda _scene, _levels, _quantities: {}
     )
     details: Callable[[Solution], Mapping[str, float]] = lambda _solution: {}
     warnings: Callable[[Bearing, Solution], Sequence[str]] = lambda _scene, _solution: ()

@@ -134,7 +134,7 @@ def solve(
         found = _under_load(scene, cells, among, films, outputs, heat, progress)
     solution, quantities = found.levels[0]
     of_factors = found.of_factors
-    iterated = outputs.iteration_uncertainties([grid for grid, _ in found.levels], quantities)
+    iterated = outputs.iteration_uncertainties(found.scene, [grid for grid, _ in found.levels], quantities)
     more = {name: of_factors.get(name, 0.0) + iterated.get(name, 0.0) for name in {*of_factors, *iterated}}
     uncertainty = uncertainties(found.levels, more, found.balance, exact=found.exact, apart=found.apart)
     estimated = outputs.of_finest(found.scene, solution)

@@ -1,16 +1,13 @@
 """Stiffness, damping and stability of bearings in words."""
 
 import math
-from collections.abc import Sequence
 
 from roughfilm.contact.foundation.rounding import with_error
-from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint
 from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve
 from roughfilm.rom.bearing.dynamics.whirl import SAME
 from roughfilm.rom.bearing.free.film import refilled
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.leading import missing_in_series
 from roughfilm.words.numbers import digits
 from roughfilm.words.outside import outside_in_words, outside_of_series
 from roughfilm.words.stribeck import SpeedScale, speed_scale
@@ -100,17 +97,6 @@ def slow_up_to(point: DynamicPoint) -> str:
         f"stiffness and damping differ by more than {SAME:.0%} from those of slow motions above "
         f"{number_of(point, 'slow_ratio')} of the speed"
     ).replace("%", " %")
-
-
-def heat_warnings(scene: Bearing, curves: Sequence[DynamicCurve]) -> list[str]:
-    """Warnings about temperatures out of the range of the law of the viscosity, or about heat that is not known."""
-    lubricant = scene.lubricant
-    points = [point for curve in curves for point in curve.points]
-    found = [point.numbers["temperature"] + ZERO_CELSIUS for point in points if "temperature" in point.numbers]
-    if not found:
-        return lubricant.left_out_heat
-    transfers = [point.estimated_heat_transfer for point in points]
-    return [*lubricant.hot(max(found)), *missing_in_series(transfers, "speeds")]
 
 
 def warnings_of(scene: Bearing, curve: DynamicCurve) -> list[str]:

@@ -12,6 +12,7 @@ from roughfilm.rom.bearing.march.rough_walls import Walls
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.balanced import balanced
 from roughfilm.rom.bearing.thermal.exchange import Temperatures, coldest, exchange_of, temperatures
+from roughfilm.rom.bearing.thermal.leading import leading_input
 from roughfilm.rom.cavitation.motion.coupled import Instant
 
 TOLERANCE = 1e-9
@@ -58,7 +59,7 @@ def balanced_equilibrium(
     cells: tuple[int, int],
     *,
     coarse: Equilibrium | None = None,
-    transfer: float | None = None,
+    part: float = 1.0,
 ) -> Equilibrium:
     """The equilibrium of a bearing on a grid, with the heat of its film balanced if its lubricant has a temperature.
 
@@ -73,7 +74,7 @@ def balanced_equilibrium(
     walls : its walls, smooth or rough.
     cells : numbers of cells along and across.
     coarse : the equilibrium on a coarser grid, or with another heat transfer.
-    transfer : heat transfer to the surroundings in place of that of the scene, W/K.
+    part : heat transfer to the surroundings over the one that is estimated where none is given.
 
     Raises
     ------
@@ -111,7 +112,7 @@ def balanced_equilibrium(
             instant = before.instant
         else:
             instant = settled(film, None if before is None else before.instant)
-        found = temperatures_of(scene, film, instant, transfer)
+        found = temperatures_of(scene, film, instant, part)
         last[:] = [Equilibrium(film=film, instant=instant, cells=cells, temperatures=found)]
         return found.effective
 
@@ -127,14 +128,14 @@ def balanced_equilibrium(
     return replace(last[0], slope=found.slope)
 
 
-def temperatures_of(scene: Bearing, film: FreeFilm, instant: Instant, transfer: float | None = None) -> Temperatures:
+def temperatures_of(scene: Bearing, film: FreeFilm, instant: Instant, part: float = 1.0) -> Temperatures:
     """The temperatures that the heat of a film in equilibrium brings about.
 
     Parameters
     ----------
     scene : the bearing with the lubricant as it is supplied.
     film, instant : the equilibrium, whose scene has the lubricant at the temperature of the film.
-    transfer : heat transfer to the surroundings in place of that of the scene, W/K.
+    part : heat transfer to the surroundings over the one that is estimated where none is given.
 
     Raises
     ------
@@ -143,7 +144,16 @@ def temperatures_of(scene: Bearing, film: FreeFilm, instant: Instant, transfer: 
     """
     liquid, solution = scene.lubricant.liquid, film.solution(instant)
     exchange = exchange_of(film.scene, solution, static_quantities(film, instant), liquid.temperature)
-    return temperatures(exchange if transfer is None else replace(exchange, conductance=transfer), liquid)
+    return temperatures(exchange, liquid, part=part)
+
+
+def leading_of(scene: Bearing, found: Equilibrium) -> str:
+    """The input on which the temperature of an equilibrium depends most; "" without one, or if it is small."""
+    if found.temperatures is None:
+        return ""
+    film, liquid = found.film, scene.lubricant.liquid
+    quantities = static_quantities(film, found.instant)
+    return leading_input(film.scene, film.solution(found.instant), quantities, liquid, found.temperatures.effective)
 
 
 def point_of(found: Equilibrium, ratio: float) -> GridPoint:

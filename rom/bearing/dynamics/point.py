@@ -102,6 +102,7 @@ class DynamicPoint:
     cpu_s : CPU time, s.
     estimated_heat_transfer : heat transfer to the surroundings that is estimated, as the scene gives none, W/K (W/(m K)
         if infinitely wide); 0 where the lubricant takes away more than it does.
+    leading : the input on which the temperature depends most, in words; "" without a temperature, or where it is small.
     outside : the ways in which the film is outside the range of the model; the error of the numbers is then unknown.
     """
 
@@ -115,7 +116,13 @@ class DynamicPoint:
     residual: float
     cpu_s: float
     estimated_heat_transfer: float = 0.0
+    leading: str = ""
     outside: tuple[str, ...] = ()
+
+    @property
+    def temperature(self) -> float | None:
+        """The temperature of the film, °C; None of a lubricant without one."""
+        return self.numbers.get("temperature")
 
     @property
     def stiffness(self) -> Array:

@@ -68,7 +68,7 @@ def save_points(path: Path, inputs: Inputs, points: Sequence[DynamicPoint]) -> N
 
     ``points/`` has a column for each number of the operation, ``numbers/`` and ``uncertainty/`` one for each quantity;
     numbers may be infinite or NaN. ``spectrum/`` has a row for each point, of stiffness and damping over frequency. The
-    attribute ``outside`` has the sentences of each point, as JSON.
+    attributes ``outside`` and ``leading`` have the sentences of each point, as JSON.
 
     Raises
     ------
@@ -87,6 +87,7 @@ def save_points(path: Path, inputs: Inputs, points: Sequence[DynamicPoint]) -> N
         for name in ordered[0].spectrum if ordered else ():
             write_column(file, f"spectrum/{name}", [point.spectrum[name] for point in ordered], UNITS[name])
         file.attrs["outside"] = json.dumps([point.outside for point in ordered])
+        file.attrs["leading"] = json.dumps([point.leading for point in ordered])
 
     write_checked(path, MARK, fill)
 
@@ -111,8 +112,10 @@ def known_points(path: Path, inputs: Inputs) -> tuple[DynamicPoint, ...]:
         wanted |= {f"spectrum/{name}": Numbers(shape=(*ROWS, len(RATIOS_OF_MEMORY))) for name in spectra}
         columns = content.take(wanted)
         outside = content.one("@outside", Json(kind=tuple[tuple[str, ...], ...]))
-        if len(outside) != len(columns["points/speed"]):
-            raise content.fault("@outside", "has another number of points")
+        leading = content.one("@leading", Json(kind=tuple[str, ...]))
+        for place, words in (("@outside", outside), ("@leading", leading)):
+            if len(words) != len(columns["points/speed"]):
+                raise content.fault(place, "has another number of points")
     return tuple(
         DynamicPoint(
             **{name: columns[f"points/{name}"][row].item() for name in OPERATION},
@@ -120,6 +123,7 @@ def known_points(path: Path, inputs: Inputs) -> tuple[DynamicPoint, ...]:
             uncertainty={name: columns[f"uncertainty/{name}"][row].item() for name in names},
             spectrum={name: tuple(columns[f"spectrum/{name}"][row].tolist()) for name in spectra},
             outside=outside[row],
+            leading=leading[row],
         )
         for row in range(len(columns["points/speed"]))
     )

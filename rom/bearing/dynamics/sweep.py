@@ -10,7 +10,7 @@ from roughfilm.contact.foundation.brief import brief
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.timing import imports_apart, working_time
 from roughfilm.rom.bearing.corners import infinite_flows
-from roughfilm.rom.bearing.dynamics.balance import Equilibrium, balanced_equilibrium, point_of
+from roughfilm.rom.bearing.dynamics.balance import Equilibrium, balanced_equilibrium, leading_of, point_of
 from roughfilm.rom.bearing.dynamics.point import DynamicPoint, finished, rotation_of
 from roughfilm.rom.bearing.dynamics.transfer_errors import transfer_errors
 from roughfilm.rom.bearing.dynamics.wall_errors import wall_errors
@@ -216,6 +216,7 @@ def dynamic_point(
         spectrum=points[0].spectrum,
         residual=max(instant.residual, instant.force_residual),
         estimated_heat_transfer=0.0 if heated is None else heated.estimated,
+        leading=leading_of(scene, solved[-1]),
         cpu_s=working_time() - cpu,
         outside=(
             *film_outside(placed(film, instant), solution),

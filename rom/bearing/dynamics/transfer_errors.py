@@ -7,9 +7,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.dynamics.balance import Equilibrium, balanced_equilibrium, point_of
 from roughfilm.rom.bearing.march.rough_walls import Walls
 from roughfilm.rom.bearing.scene import Bearing
-
-RANGE = (0.5, 2.0)
-"""Ends of the range of an estimated heat transfer over it."""
+from roughfilm.rom.bearing.thermal.exchange import ESTIMATED
 
 
 def transfer_errors(scene: Bearing, walls: Walls, found: Equilibrium, ratio: float) -> Callable[[str], float]:
@@ -27,11 +25,10 @@ def transfer_errors(scene: Bearing, walls: Walls, found: Equilibrium, ratio: flo
     """
     if found.temperatures is None or not found.temperatures.estimated:
         return lambda _name: 0.0
-    transfers = [part * found.temperatures.estimated for part in RANGE]
     try:
         ends = [
-            point_of(balanced_equilibrium(scene, walls, found.cells, coarse=found, transfer=transfer), ratio)
-            for transfer in transfers
+            point_of(balanced_equilibrium(scene, walls, found.cells, coarse=found, part=part), ratio)
+            for part in ESTIMATED
         ]
     except (InputError, ConvergenceError):
         return lambda _name: math.inf

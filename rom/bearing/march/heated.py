@@ -13,6 +13,7 @@ from roughfilm.rom.bearing.quantities import boundary_flows
 from roughfilm.rom.bearing.supply.quantities import supply_values
 from roughfilm.rom.bearing.thermal.balanced import balanced
 from roughfilm.rom.bearing.thermal.exchange import Temperatures, coldest, exchange_of, temperatures
+from roughfilm.rom.bearing.thermal.leading import leading_input
 from roughfilm.rom.cavitation.motion.coupled import Instant
 from roughfilm.rom.cavitation.motion.film import MovingFilm
 from roughfilm.rom.cavitation.motion.march import Moving
@@ -36,10 +37,12 @@ class HeatedMarch:
     ----------
     duty : what moves the bearing.
     observer : the numbers of its film.
+    part : heat transfer to the surroundings over the one that is estimated where none is given.
     """
 
     duty: Duty
     observer: Observer
+    part: float = 1.0
 
     @property
     def time_constant(self) -> float:
@@ -71,10 +74,24 @@ class HeatedMarch:
         found = self.temperatures(now.time, moving.instant, now.velocity, moving.solved_at, turned=moving.turned)
         return found.estimated
 
+    def leading(self, moving: Moving) -> str:
+        """The input on which the temperature at a step depends most; "" if its effect is small."""
+        now = moving.now
+        film = self._evaluated(now.time, moving.instant, now.velocity, moving.solved_at, turned=moving.turned)
+        return leading_input(self.duty.scene, *film, self.liquid, now.temperature)
+
     def temperatures(
         self, time: float, instant: Instant, velocity: Array, temperature: float, *, turned: bool
     ) -> Temperatures:
-        """The temperatures that the heat of a film brings about.
+        """The temperatures that the heat of a film brings about, from the arguments of ``_evaluated``."""
+        solution, quantities = self._evaluated(time, instant, velocity, temperature, turned=turned)
+        exchange = exchange_of(self.duty.scene, solution, quantities, self.liquid.temperature)
+        return temperatures(exchange, self.liquid, part=self.part)
+
+    def _evaluated(
+        self, time: float, instant: Instant, velocity: Array, temperature: float, *, turned: bool
+    ) -> tuple[Solution, dict[str, Quantity]]:
+        """A film as one of a steady problem, with its flows and its power.
 
         Parameters
         ----------
@@ -101,8 +118,7 @@ class HeatedMarch:
         quantities[f"displaced_flow{per}"] = Quantity(value=displaced, unit=unit)
         power = seen.power(time, instant, velocity, temperature)
         quantities[f"power_loss{per}"] = Quantity(value=power, unit="W/m" if wide else "W")
-        exchange = exchange_of(scene, solution, quantities, self.liquid.temperature)
-        return temperatures(exchange, self.liquid)
+        return solution, quantities
 
     def slope(self, balanced: float, temperature: float) -> float:
         """About dT_eq/dT where the film is at a temperature, K: that of a rise proportional to the viscosity."""

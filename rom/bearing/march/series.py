@@ -87,6 +87,7 @@ class Series:
     snapshots : fields at some times.
     grid : positions x, y of the nodes of the fields, with units.
     known : number of steps that were kept before.
+    leading : the input on which the temperature of the last step depends most, in words; "" if there is none.
     """
 
     units: Mapping[str, str]
@@ -94,6 +95,7 @@ class Series:
     snapshots: tuple[Snapshot, ...]
     grid: Mapping[str, tuple[Array, str]]
     known: int
+    leading: str = ""
 
     @cached_property
     def columns(self) -> dict[str, Array]:
@@ -117,6 +119,7 @@ def run(
     duty: Duty,
     numerics: Numerics,
     *,
+    part: float = 1.0,
     known: Sequence[Chunk] = (),
     keep: Keep = lambda _chunk: None,
     progress: Callable[[float, str], None] = lambda _fraction, _words: None,
@@ -126,6 +129,7 @@ def run(
 
     Parameters
     ----------
+    part : heat transfer to the surroundings over the one that is estimated where none is given.
     known : chunks that were kept before; the march goes on behind them with the same numbers, bit for bit.
     keep : called with each finished chunk.
 
@@ -140,7 +144,7 @@ def run(
     film = film_at(duty, numerics.cells, walls)
     heats = not duty.scene.lubricant.lacking
     observer, chunks = Observer(duty=duty, film=film, asperities=walls.contact, heated=heats), list(known)
-    warming = HeatedMarch(duty=duty, observer=observer) if heats else None
+    warming = HeatedMarch(duty=duty, observer=observer, part=part) if heats else None
     if chunks:
         moving = moving_of(film, chunks[-1].state)
     else:
@@ -167,6 +171,7 @@ def run(
         snapshots=tuple(one for chunk in chunks for one in chunk.snapshots),
         grid=observer.grid,
         known=sum(len(chunk.rows) for chunk in known),
+        leading="" if warming is None else warming.leading(moving_of(film, chunks[-1].state)),
     )
 
 

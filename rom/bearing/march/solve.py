@@ -1,9 +1,10 @@
 """A march of a bearing with its answer, the uncertainty of the answer, and a file from which it goes on."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -22,7 +23,8 @@ from roughfilm.rom.bearing.march.store import finish, keeper, kept
 from roughfilm.rom.bearing.march.summary import FORCE, Summary, apart, lengths_of, path_unit, summary_of
 from roughfilm.rom.bearing.outside import ReynoldsNumbers, gas_as_liquid, turbulence
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.leading import missing_in_series
+from roughfilm.rom.bearing.thermal.exchange import ESTIMATED
+from roughfilm.rom.bearing.thermal.leading import leading_in_series
 from roughfilm.rom.cavitation.solve import FIRST_COARSENING
 from roughfilm.rom.ladder.model import Progress, silent
 from roughfilm.rom.ladder.provenance import code
@@ -66,12 +68,17 @@ PATH_SAFETY = 1.0
 FLOW_SAFETY = 0.2
 """Least uncertainty of a mean flow over the largest one of the flows, which balance each other."""
 
+NO_TRANSFER = "no march ends with half of the heat transfer that is estimated, or with twice as much"
+
 FRICTIONS = frozenset({"friction_mean", "torque_mean", "power_loss_mean"})
 FRICTION_SAFETY = 0.3
 """Least relative uncertainty of these means over the difference of the path."""
 
 PARTS = {"fine": 0.6, "coarse": 0.25, "steps": 0.15}
 """The marches, that of the scene, on a coarse grid, and with other steps there, with the part of the work of each."""
+
+PARTS_OF_HEAT = {"fine": 0.46, "coarse": 0.2, "steps": 0.12, "transfer": 0.22}
+"""The same where a heat transfer may be estimated, with marches with both ends of its range."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -166,7 +173,8 @@ def march_bearing(
     """March a bearing in time, with the uncertainty of its answer.
 
     Two marches on a grid with 0.62 times the cells, of which one has longer steps, show the errors by grid and steps.
-    Where one of them stops, shorter steps or a grid with 0.8 times the cells take its place.
+    Where one of them stops, shorter steps or a grid with 0.8 times the cells take its place. If a heat transfer is
+    estimated at some step, two more like the second one have half of it and twice as much.
 
     Parameters
     ----------
@@ -204,7 +212,8 @@ def march_bearing(
         "code": code(),
     }
     inputs = Inputs(heights=np.zeros((0, 0)), spacing=(0.0, 0.0), settings=settings)
-    shares = PARTS if uncertain else {"fine": 1.0}
+    insulated = scene.lubricant.lacking or (scene.heat is not None and scene.heat.heat_transfer is not None)
+    shares = (PARTS if insulated else PARTS_OF_HEAT) if uncertain else {"fine": 1.0}
     furthest = 0.0
 
     def report(fraction: float, words: str) -> None:
@@ -212,12 +221,13 @@ def march_bearing(
         furthest = max(furthest, fraction)
         progress(furthest, words)
 
-    def marched(name: str, given: Numerics, part: str) -> Series:
+    def marched(name: str, given: Numerics, part: str, transfer: float = 1.0) -> Series:
         known = () if path is None else kept(path, inputs, name)
         start, share = sum(list(shares.values())[: list(shares).index(part)]), shares[part]
         return run(
             duty,
             given,
+            part=transfer,
             known=known,
             keep=(lambda _chunk: None) if path is None else keeper(path, inputs, name, len(known)),
             progress=lambda fraction, words: report(start + share * fraction, words),
@@ -228,7 +238,7 @@ def march_bearing(
     quantities, warnings = dict(summary.quantities), _warnings(summary) + scene.lubricant.left_out_heat
     if uncertain:
         try:
-            others = _compared(numerics, marched)
+            others = _compared(numerics, marched, estimated=_estimates(series))
         except (InputError, ConvergenceError) as fault:
             warnings.append(f"no uncertainty: all marches on coarser grids stopped ({fault})")
         else:
@@ -237,9 +247,8 @@ def march_bearing(
             known = {name: error for name, error in found.items() if math.isfinite(error)}
             quantities = {name: replace(one, uncertainty=known.get(name)) for name, one in quantities.items()}
             if unknown := found.keys() - known.keys():
-                warnings.append(
-                    f"{', '.join(sorted(unknown))}: unknown uncertainty, as the roughness has too few points"
-                )
+                why = NO_TRANSFER if others.transfers is None else "the roughness has too few points"
+                warnings.append(f"{', '.join(sorted(unknown))}: unknown uncertainty, as {why}")
     walls = walls_of(duty.scene)
     spots = walls.spots(float(series["film_min"].min()))
     warnings += () if spots is None else spots.warnings
@@ -247,7 +256,8 @@ def march_bearing(
         warnings += scene.lubricant.hot(float(series["temperature"].max()) + ZERO_CELSIUS)
         held = (series.time >= summary.first) & (series.time <= summary.last)
         transfers = series["estimated_heat_transfer"][held].tolist()
-        warnings += missing_in_series(transfers, "steps in that time", "the uncertainty does not contain")
+        leading = "" if transfers[-1] else series.leading
+        warnings += leading_in_series(transfers, "steps in that time", [("at the last time", leading)])
     infinite = Observer(duty=duty, film=film_at(duty, cells, walls)).infinite_flows
     if infinite:
         quantities |= {
@@ -314,20 +324,37 @@ class _Compared:
     steps : that with longer or shorter steps on the same grid.
     of_grid : error by the grid over the difference to the coarse grid, relative to that of the first coarse grid.
     of_steps : error by the steps over the difference to the other steps, relative to that of longer ones.
+    transfers : marches as that with other steps with each end of the range of a heat transfer that is estimated; none
+        where it is not, None if one of them stops.
     """
 
     coarse: Series
     steps: Series
     of_grid: float
     of_steps: float
+    transfers: tuple[Series, ...] | None = ()
 
 
-def _compared(numerics: Numerics, marched: Callable[[str, Numerics, str], Series]) -> _Compared:
+class _Marched(Protocol):
+    """The march of a name, the part of the work that it is, and its heat transfer over the one that is estimated."""
+
+    def __call__(self, name: str, given: Numerics, part: str, transfer: float = 1.0, /) -> Series:
+        """Run the march."""
+        ...
+
+
+def _estimates(series: Series) -> bool:
+    """Whether the heat transfer is estimated at a step."""
+    return "estimated_heat_transfer" in series.units and bool(series["estimated_heat_transfer"].any())
+
+
+def _compared(numerics: Numerics, marched: _Marched, *, estimated: bool) -> _Compared:
     """The marches on the first coarse grid on which they do not stop.
 
     Parameters
     ----------
-    marched : marched(name, numerics, part), the march of a name, and the part of the work that it is.
+    marched : runs a march.
+    estimated : whether the heat transfer is estimated at a step.
 
     Raises
     ------
@@ -349,11 +376,25 @@ def _compared(numerics: Numerics, marched: Callable[[str, Numerics, str], Series
             except ConvergenceError as fault:
                 stopped = fault
                 continue
+            transfers: tuple[Series, ...] | None
+            try:
+                transfers = tuple(
+                    marched(
+                        f"{name}, {steps} steps, {end:g} of the heat transfer",
+                        _with_error(given, other_error),
+                        "transfer",
+                        end,
+                    )
+                    for end in (ESTIMATED if estimated else ())
+                )
+            except (InputError, ConvergenceError):
+                transfers = None
             return _Compared(
                 coarse=coarse,
                 steps=following,
                 of_grid=(1 / FIRST_COARSENING - 1) / (1 / ratio - 1),
                 of_steps=abs((COARSER_ERROR - 1) / (other_error - 1)),
+                transfers=transfers,
             )
     assert stopped is not None
     raise stopped
@@ -361,6 +402,8 @@ def _compared(numerics: Numerics, marched: Callable[[str, Numerics, str], Series
 
 def _uncertainties(duty: Duty, summary: Summary, fine: Series, others: _Compared, fine_cells: int) -> dict[str, float]:
     """The uncertainty of each quantity, from a coarser grid, and from that with other steps too.
+
+    The changes of each quantity with both ends of the range of a heat transfer that is estimated add to it.
 
     The difference of two extremes may be small by chance; that of the paths on which they lie bounds it from below, and
     the edge of a cavity is known to one cell along the film. A path that is given has no error. What an extreme may
@@ -393,7 +436,13 @@ def _uncertainties(duty: Duty, summary: Summary, fine: Series, others: _Compared
         least[name] = FRICTION_SAFETY * path * abs(summary.quantities[name].value)
     flows = [name for name in found if "_flow_" in name]
     least |= dict.fromkeys(flows, FLOW_SAFETY * max((found[name] for name in flows), default=0.0))
-    return {name: max(one, least.get(name, 0.0)) for name, one in found.items()}
+    if others.transfers is None:
+        return dict.fromkeys(found, math.inf)
+    ends = [summary_of(duty, one).quantities for one in others.transfers]
+    of_transfer = {
+        name: max((abs(end[name].value - one.value) for end in ends), default=0.0) for name, one in steps.items()
+    }
+    return {name: max(one, least.get(name, 0.0)) + of_transfer[name] for name, one in found.items()}
 
 
 def _with_walls(

@@ -68,8 +68,8 @@ def save_points(
 
     ``points/`` has a column for each number, NaN for a flash temperature without contact, ``uncertainty/`` a column for
     each estimated uncertainty, NaN where there is none, and ``lift_off/`` a row for each load. Points of several
-    windows have ``scatter/``, ``window_low/`` and ``window_high/`` too. The attribute ``outside`` has the sentences of
-    each point, as JSON.
+    windows have ``scatter/``, ``window_low/`` and ``window_high/`` too. The attributes ``outside`` and ``leading`` have
+    the sentences of each point, as JSON.
 
     Raises
     ------
@@ -95,6 +95,7 @@ def save_points(
                     UNITS.get(name, "1"),
                 )
         file.attrs["outside"] = json.dumps([point.outside for point in ordered])
+        file.attrs["leading"] = json.dumps([point.leading for point in ordered])
         if curves:
             write_column(file, "lift_off/pressure", [curve.pressure for curve in curves], "Pa")
             write_column(file, "lift_off/speed", [curve.lift_off.speed for curve in curves], "m/s")
@@ -117,8 +118,10 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
         numbers = (*NUMBERS, *(name for name in OF_SOME if name in content.names("points")))
         columns = content.take({f"points/{name}": Numbers(shape=ROWS, missing=name in FLASH) for name in numbers})
         outside = content.one("@outside", Json(kind=tuple[tuple[str, ...], ...]))
-        if len(outside) != len(columns["points/speed"]):
-            raise content.fault("@outside", "has another number of points")
+        leading = content.one("@leading", Json(kind=tuple[str, ...]))
+        for place, words in (("@outside", outside), ("@leading", leading)):
+            if len(words) != len(columns["points/speed"]):
+                raise content.fault(place, "has another number of points")
         known = [f"uncertainty/{name}" for name in content.names("uncertainty")]
         uncertainties = content.take(
             {name: Numbers(shape=(len(columns["points/speed"]),), missing=True) for name in known}
@@ -132,6 +135,7 @@ def known_points(path: Path, inputs: Inputs) -> tuple[StribeckPoint, ...]:
                 if not np.isnan(column[row])
             },
             outside=outside[row],
+            leading=leading[row],
         )
         for row in range(len(columns["points/speed"]))
     )

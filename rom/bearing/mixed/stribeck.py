@@ -16,11 +16,12 @@ from roughfilm.rom.bearing.flash import FlashTemperature, flash_temperature
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.mixed.asperities import Asperities
 from roughfilm.rom.bearing.mixed.film import MixedFilm, MixedState
-from roughfilm.rom.bearing.mixed.search.heated import with_temperature
+from roughfilm.rom.bearing.mixed.search.heated import HeatedSearch, leading_of, with_temperature
 from roughfilm.rom.bearing.mixed.search.separation import Search, SeparationSearch, Slopes
 from roughfilm.rom.bearing.mixed.wall import asperities_of
 from roughfilm.rom.bearing.outside import film_outside
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.exchange import ESTIMATED
 from roughfilm.rom.cavitation.evaluation.peak import peak_pressure
 from roughfilm.rom.ladder.model import Progress, silent
 
@@ -94,6 +95,7 @@ class StribeckPoint:
     outlet_temperature : temperature of the lubricant that leaves, °C; None where the scene has no temperature.
     estimated_heat_transfer : heat transfer to the surroundings that is estimated, as the scene gives none, W/K (W/(m K)
         if infinitely wide); None where the scene has no temperature, 0 where the lubricant takes away more.
+    leading : the input on which the temperature depends most, in words; "" without a temperature, or where it is small.
     flash_temperature, flash_temperature_low, flash_temperature_high : estimate of how much hotter the spots in contact
         are than the walls at the largest contact pressure, and its range, K; None without ``asperities.solid_heat`` and
         where nothing touches.
@@ -133,6 +135,7 @@ class StribeckPoint:
     uncertainty: Mapping[str, float] = field(default_factory=dict)
     scatter: Mapping[str, float] = field(default_factory=dict)
     window_interval: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    leading: str = ""
     outside: tuple[str, ...] = ()
 
     @property
@@ -253,10 +256,7 @@ def stribeck(
             finished.append(StribeckCurve(pressure=pressure, points=tuple(points), lift_off=NEVER_TOUCHING))
             continue
         progress(1.0, f"lift-off at {pressure * 1e-6:.4g} MPa")
-        near_speed = _lift_off_guess(points, search)
-        speed, coarse_speed = (one.lift_off(pressure, near_speed) for one in (search, coarse))
-        of_factors = search.asperities.factor_uncertainty(search.asperities.touching) * speed
-        lift_off = LiftOff(speed=speed, uncertainty=abs(speed - coarse_speed) + of_factors)
+        lift_off = _lift_off(search, coarse, points)
         finished.append(StribeckCurve(pressure=pressure, points=tuple(points), lift_off=lift_off))
     return tuple(finished)
 
@@ -309,22 +309,11 @@ def curve_search(
     )
 
 
-def _in_still_air(state: MixedState) -> float:
-    """The heat that a bearing gives off by a heat transfer that is estimated over all its heat; 0 where it is given.
-
-    It is 0 too where a film has no heat, as at rest.
-    """
-    found = state.temperatures
-    if found is None or not found.estimated:
-        return 0.0
-    whole = found.to_surroundings + found.to_lubricant
-    return found.to_surroundings / whole if whole else 0.0
-
-
 def _uncertainty(point: StribeckPoint, search: Search, coarse: Search) -> dict[str, float]:
     """The uncertainty of a point from a grid with half as many cells; empty if that grid does not carry the load.
 
-    A heat transfer that is estimated may be half or twice as large, and so may the part of the rise by it.
+    Where a heat transfer is estimated, the point is sought on that grid with both ends of its range too. It is empty if
+    one of them has no film.
     """
     try:
         near = coarse.solved(point.speed, point.pressure, [(point.speed, point.separation)])
@@ -333,11 +322,35 @@ def _uncertainty(point: StribeckPoint, search: Search, coarse: Search) -> dict[s
             raise
         return {}
     slopes = search.slopes(point.speed, point.pressure, point.separation, point.film_load)
-    found = uncertainties(point, stribeck_point(near, coarse, point.pressure), search, slopes)
-    if point.temperature is not None:
-        rise = point.temperature + ZERO_CELSIUS - search.scene.lubricant.liquid.temperature
-        found |= {name: found[name] + _in_still_air(near) * abs(rise) for name in TEMPERATURES}
-    return found
+    middle = stribeck_point(near, coarse, point.pressure)
+    found = uncertainties(point, middle, search, slopes)
+    if not (isinstance(coarse, HeatedSearch) and middle.estimated_heat_transfer):
+        return found
+    ends = []
+    for part in ESTIMATED:
+        other = coarse.with_part(part)
+        try:
+            state = other.solved(point.speed, point.pressure, [(middle.speed, middle.separation)])
+        except (InputError, ConvergenceError):
+            return {}
+        ends.append(stribeck_point(state, other, point.pressure))
+    return {
+        name: one + max(abs(getattr(end, name) - getattr(middle, name)) for end in ends) for name, one in found.items()
+    }
+
+
+def _lift_off(search: Search, coarse: Search, points: Sequence[StribeckPoint]) -> LiftOff:
+    """The lift-off speed under the load of some points, with its uncertainty as that of a point."""
+    pressure, near = points[0].pressure, _lift_off_guess(points, search)
+    speed, coarse_speed = (one.lift_off(pressure, near) for one in (search, coarse))
+    error = abs(speed - coarse_speed) + search.asperities.factor_uncertainty(search.asperities.touching) * speed
+    if isinstance(coarse, HeatedSearch) and any(point.estimated_heat_transfer for point in points):
+        try:
+            ends = [coarse.with_part(part).lift_off(pressure, near) for part in ESTIMATED]
+        except (InputError, ConvergenceError):
+            ends = [inf]
+        error += max(abs(end - coarse_speed) for end in ends)
+    return LiftOff(speed=speed, uncertainty=error)
 
 
 def _check_range(resolution: int, tolerance: float) -> None:
@@ -376,6 +389,7 @@ def stribeck_point(state: MixedState, search: Search, pressure: float) -> Stribe
         temperature=None if heated is None else heated.effective - ZERO_CELSIUS,
         outlet_temperature=None if heated is None else heated.outlet - ZERO_CELSIUS,
         estimated_heat_transfer=None if heated is None else heated.estimated,
+        leading=leading_of(state, search.scene),
         outside=(
             *film_outside(state.scene, state.solution),
             *search.asperities.spot_pressures(separation).outside,

@@ -228,7 +228,8 @@ def _mean_point(own: Sequence[StribeckPoint], independent: float) -> StribeckPoi
     averages = _averages(own, independent)
     uncertainty = {name: one.uncertainty for name, one in averages.items() if one.uncertainty is not None}
     outside = tuple(dict.fromkeys(reason for point in own for reason in point.outside))
-    return with_scatter(StribeckPoint(**means, uncertainty=uncertainty, outside=outside), own, independent)
+    mean = StribeckPoint(**means, uncertainty=uncertainty, outside=outside, leading=own[0].leading)
+    return with_scatter(mean, own, independent)
 
 
 def _averages(own: Sequence[StribeckPoint], independent: float) -> dict[str, WindowAverage]:

@@ -29,6 +29,9 @@ IN_A_MACHINE = 300.0
 """Heat transfer from a bearing to its surroundings over its nominal area where none is given, W/(m² K): by DIN 31652
 and ISO 7902-1 15 to 20 W/(m² K) over a surface of 15 to 20 times the nominal area, 225 to 400 W/(m² K)."""
 
+ESTIMATED = (0.5, 2.0)
+"""Ends of the range of a heat transfer that is estimated as none is given, over it."""
+
 NEAR = 1e-3
 """Difference of two temperatures below which the mean heat capacity between them is that at one of them, K."""
 
@@ -90,7 +93,7 @@ class Temperatures:
     estimated: float = 0.0
 
 
-def temperatures(exchange: Exchange, liquid: Liquid) -> Temperatures:
+def temperatures(exchange: Exchange, liquid: Liquid, *, part: float = 1.0) -> Temperatures:
     """The temperatures that the heat of a film brings about, along which its power P and its heat transfer are uniform.
 
     With the heat e(T) = ∫ ρ c dT of a volume, new lubricant Q_k at T_k and the recirculated flow Q_r, which leaves and
@@ -115,6 +118,7 @@ def temperatures(exchange: Exchange, liquid: Liquid) -> Temperatures:
     ----------
     exchange : power and flows of the film.
     liquid : its lubricant over temperature.
+    part : the heat transfer over the one that is estimated; no effect where it is given.
 
     Raises
     ------
@@ -126,7 +130,7 @@ def temperatures(exchange: Exchange, liquid: Liquid) -> Temperatures:
     conductance, estimated = exchange.conductance, 0.0
     if conductance is None:
         capacity = float(liquid.heat(np.array([liquid.temperature]))[1][0]) * exchange.renewed
-        conductance = estimated = max(IN_A_MACHINE * exchange.area - capacity, 0.0)
+        conductance = estimated = part * max(IN_A_MACHINE * exchange.area - capacity, 0.0)
     if not exchange.flows:
         only = exchange.surroundings + exchange.power / conductance
         return Temperatures(

@@ -14,9 +14,16 @@ from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import thinning
 from roughfilm.rom.bearing.solve import solve
 from roughfilm.rom.bearing.thermal.balanced import balanced
-from roughfilm.rom.bearing.thermal.exchange import Exchange, Temperatures, coldest, exchange_of, temperatures
+from roughfilm.rom.bearing.thermal.exchange import (
+    ESTIMATED,
+    Exchange,
+    Temperatures,
+    coldest,
+    exchange_of,
+    temperatures,
+)
 from roughfilm.rom.bearing.thermal.isothermal import isothermal_model
-from roughfilm.rom.bearing.thermal.leading import leading_input
+from roughfilm.rom.bearing.thermal.leading import leading_input, leading_warning
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.ladder.model import Model, Progress
 from roughfilm.rom.ladder.request import CheckedRequest
@@ -80,14 +87,12 @@ class Heated:
     liquid : the lubricant over temperature.
     temperature : temperature T of the film, K.
     sensitivity : changes with T.
-    in_still_air : whether the heat transfer to the surroundings is estimated, as none is given.
     """
 
     base: Outputs
     liquid: Liquid
     temperature: float
     sensitivity: Sensitivity = INSENSITIVE
-    in_still_air: bool = False
 
     @property
     def outputs(self) -> Outputs:
@@ -103,7 +108,7 @@ class Heated:
     def warnings(self, scene: Bearing, solution: Solution) -> list[str]:
         """The warnings of the isothermal model, and the input on which the temperature depends most."""
         leading = leading_input(scene, solution, self.base.quantities(scene, solution), self.liquid, self.temperature)
-        return [*self.base.warnings(scene, solution), *leading]
+        return [*self.base.warnings(scene, solution), *leading_warning(leading)]
 
     def quantities(self, scene: Bearing, solution: Solution) -> dict[str, Quantity]:
         """The quantities of the isothermal model, its temperatures and heat flows."""
@@ -144,18 +149,26 @@ class Heated:
         return {name: value + extra.get(name, 0.0) for name, value in uncertainties.items()}
 
     def transfer_uncertainties(
-        self, _levels: Sequence[Solution], quantities: Mapping[str, Quantity]
+        self, scene: Bearing, levels: Sequence[Solution], quantities: Mapping[str, Quantity]
     ) -> dict[str, float]:
-        """The uncertainties by a heat transfer to the surroundings that is estimated: half or twice as much heat."""
-        per = "" if "heat_generated" in quantities else "_per_width"
-        generated, off = (quantities[f"{name}{per}"].value for name in ("heat_generated", "heat_to_surroundings"))
-        if not self.in_still_air or not off:
+        """The uncertainties by a heat transfer to the surroundings that is estimated: its range at this film.
+
+        Each end of the range changes the temperatures that the heat of the film brings about, and with that of the film
+        all quantities, to first order.
+        """
+        exchange = exchange_of(scene, levels[0], self.base.quantities(scene, levels[0]), self.liquid.temperature)
+        here = temperatures(exchange, self.liquid)
+        if not here.estimated:
             return {}
-        shift = abs(off / generated * (self.temperature - self.liquid.temperature))
-        changes = self.sensitivity.changes
-        balanced = shift / (1 - self.sensitivity.slope)
+        wide = levels[0].problem.shape.wide
+        own = heat_quantities(exchange, here, wide=wide)
+        ends = [
+            heat_quantities(exchange, temperatures(exchange, self.liquid, part=part), wide=wide) for part in ESTIMATED
+        ]
+        shifts = {name: max(abs(end[name].value - one.value) for end in ends) for name, one in own.items()}
+        balanced, changes = shifts[EFFECTIVE] / (1 - self.sensitivity.slope), self.sensitivity.changes
         uncertainties = {name: abs(changes.get(name, 0.0)) * balanced for name in quantities}
-        return uncertainties | {EFFECTIVE: balanced, "inlet_temperature": shift, "outlet_temperature": shift}
+        return uncertainties | shifts | {EFFECTIVE: balanced}
 
 
 def heat_quantities(exchange: Exchange, found: Temperatures, *, wide: bool) -> dict[str, Quantity]:
@@ -209,13 +222,7 @@ def solve_heat_balance(solver: Model[Bearing], scene: Bearing, request: CheckedR
     def film(temperature: float, cells: int, sensitivity: Sensitivity = INSENSITIVE) -> Result:
         model = isothermal_model(scene)
         outputs = model.outputs if cells == request.resolution else model.outputs.searched
-        heated = Heated(
-            base=outputs,
-            liquid=liquid,
-            temperature=temperature,
-            sensitivity=sensitivity,
-            in_still_air=scene.heat is None or scene.heat.heat_transfer is None,
-        )
+        heated = Heated(base=outputs, liquid=liquid, temperature=temperature, sensitivity=sensitivity)
         hot = scene.at_temperature(temperature)
         return solve(
             solver,

@@ -22,9 +22,6 @@ NOTABLE = 0.2
 
 STILL_AIR = f"{IN_A_MACHINE:g} W/(m² K) over the nominal area, as of a bearing in still air (DIN 31652)"
 
-CONTAINED = "the uncertainty contains"
-"""How the uncertainty takes an estimated heat transfer, unless otherwise said."""
-
 
 def leading_input(
     scene: Bearing,
@@ -34,8 +31,8 @@ def leading_input(
     temperature: float,
     *,
     insulated: bool = False,
-) -> tuple[str, ...]:
-    """The input on which the temperature depends most, with the changes of temperature and viscosity; () if small.
+) -> str:
+    """The input on which the temperature depends most, with the changes of temperature and viscosity; "" if small.
 
     The inputs are the temperature of the supply, 5 K warmer, half of ``heat.carried_over``, and half of the heat
     transfer to the surroundings or, where it is missing, that of a bearing in still air. Each changes the temperature
@@ -62,15 +59,15 @@ def leading_input(
             for words, other in _varied(scene, solution, quantities, liquid, exchange, insulated=insulated)
         }
     except ConvergenceError:
-        return ()
+        return ""
     if found.estimated:
         capacity = float(liquid.heat(np.array([liquid.temperature]))[1][0]) * exchange.renewed
         unit = "W/(m K)" if scene.wide else "W/K"
         little = f"the flow of new lubricant takes away {capacity:.2g} {unit}"
         still = f"{STILL_AIR}, {IN_A_MACHINE * exchange.area:.2g} {unit}"
         if insulated:
-            return (f"temperature: {little}, less than {still}, but the walls take no heat; take heat_balance",)
-        return (_missing("", f"{little} only", still, CONTAINED),)
+            return f"{little}, less than {still}, but the walls take no heat; take heat_balance"
+        return _missing(f"{little} only", still)
     viscosity, slope = (float(one[0]) for one in liquid.viscosity(np.array([temperature])))
     sensitivity = -slope / viscosity
     follows = 1 + max(sensitivity * (temperature - liquid.temperature), 0.0)
@@ -78,32 +75,43 @@ def leading_input(
     words, change = max(changes.items(), key=lambda pair: abs(pair[1]))
     thicker = float(np.expm1(-sensitivity * change))
     if abs(thicker) < NOTABLE:
-        return ()
+        return ""
     direction = "colder" if change < 0 else "warmer"
     lubricant = f"{share(abs(thicker))} {'more' if thicker > 0 else 'less'} viscous"
-    return (f"temperature: it depends most on {words}, the film is about {abs(change):.2g} K {direction}, {lubricant}",)
+    return f"it depends most on {words}, the film is about {abs(change):.2g} K {direction}, {lubricant}"
 
 
-def missing_in_series(transfers: Sequence[float], places: str, contained: str = CONTAINED) -> tuple[str, ...]:
-    """The warning on the points of a series at which heat transfer is estimated as none is given; () without any.
+def leading_warning(leading: str, where: str = "") -> tuple[str, ...]:
+    """The warning on the input that :func:`leading_input` gives, and where it is so; () without one."""
+    return (f"temperature: {where}{leading}",) if leading else ()
+
+
+def leading_in_series(
+    transfers: Sequence[float], places: str, leading: Sequence[tuple[str, str]] = ()
+) -> tuple[str, ...]:
+    """The warnings on the inputs on which the temperatures of a series depend most; () without any.
 
     Parameters
     ----------
     transfers : heat transfer to the surroundings that is estimated at each point, W/K; 0 where none is.
     places : the points in words, such as "speeds".
-    contained : whether the uncertainties contain a factor of two of it, in words: "the uncertainty contains".
+    leading : places, such as "at 3000 rpm", with the input on which the temperature depends there, that of interest
+        first; the first one with such an input is named.
     """
     some = sum(1 for one in transfers if one)
-    where = f"at {some} of {len(transfers)} {places} "
-    little = "the flow of new lubricant takes away less"
-    return (_missing(where, little, STILL_AIR, contained),) if some else ()
+    missing = _missing("the flow of new lubricant takes away less", STILL_AIR) if some else ""
+    where, words = next(((where, words) for where, words in leading if words), ("", ""))
+    return (
+        *leading_warning(missing, f"at {some} of {len(transfers)} {places} "),
+        *leading_warning(words, f"{where} "),
+    )
 
 
-def _missing(where: str, little: str, still: str, contained: str) -> str:
+def _missing(little: str, still: str) -> str:
     """That a temperature depends on a heat transfer that is missing, and by how much the uncertainty takes it."""
     return (
-        f"temperature: {where}it depends most on heat.heat_transfer and heat.area, which are missing: {little}, so "
-        f"that the bearing gives off {still}; {contained} a factor of two of it"
+        f"it depends most on heat.heat_transfer and heat.area, which are missing: {little}, so that the bearing gives "
+        f"off {still}; the uncertainty contains a factor of two of it"
     )
 
 

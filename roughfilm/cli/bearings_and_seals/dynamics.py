@@ -42,12 +42,12 @@ from roughfilm.terminal.scenes import bearing_of
 from roughfilm.words.dynamics import (
     answer_of,
     critical_mass,
-    heat_warnings,
     number_of,
     own_point,
     warnings_of,
     whirl_ratio,
 )
+from roughfilm.words.heat import heat_warnings
 from roughfilm.words.numbers import digits, finite
 from roughfilm.words.stribeck import speed_scale
 
@@ -240,7 +240,10 @@ def curve_entries(scene: Bearing, curves: Sequence[DynamicCurve]) -> dict[str, A
         "numerics": {"residual": max(point.residual for point in points), "points": len(points)},
         "provenance": origin(
             SOURCES,
-            [*heat_warnings(scene, curves), *(warning for curve in curves for warning in warnings_of(scene, curve))],
+            [
+                *heat_warnings(scene, points, "speeds"),
+                *(warning for curve in curves for warning in warnings_of(scene, curve)),
+            ],
             scene=scene_entries(scene),
         ),
     }

@@ -14,7 +14,6 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.files import write_json
 from roughfilm.contact.foundation.ranges import whole_in_range
 from roughfilm.contact.foundation.timing import stopwatch
-from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.contact.foundation.writing.kinds import JSON, PAGE
 from roughfilm.rom.bearing.mixed.curves import Wall, resumed_curves, wall_of
 from roughfilm.rom.bearing.mixed.store import MARK, UNITS, numbers_of, write_csv
@@ -27,7 +26,6 @@ from roughfilm.rom.bearing.mixed.stribeck import (
     StribeckPoint,
 )
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.leading import missing_in_series
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
 from roughfilm.sampling.cells import Cells, place_of, read_cells, scenes_of
@@ -48,6 +46,7 @@ from roughfilm.terminal.ranges import loads_of, speeds_of
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.terminal.scenes import bearing_of, refuse_jobs
 from roughfilm.words.average import count_in_words
+from roughfilm.words.heat import heat_warnings
 from roughfilm.words.numbers import finite
 from roughfilm.words.stribeck import (
     at_own_speed,
@@ -270,14 +269,10 @@ def curve_entries(
     warnings += outside_warnings(scene, curves)
     if wall is not None:
         warnings += wall.asperities.spot_pressures(min(point.separation for point in points)).warnings
-    warnings += scene.lubricant.left_out_heat
     warnings += flash_warnings_of(scene, points)
     if cells is not None and scene.asperities is not None and scene.asperities.solid_heat is not None:
         warnings.append("asperities.solid_heat: flash temperatures are left out over windows; take one surface")
-    if heated := [point.temperature + ZERO_CELSIUS for point in points if point.temperature is not None]:
-        warnings += scene.lubricant.hot(max(heated))
-        transfers = [point.estimated_heat_transfer or 0.0 for point in points]
-        warnings += missing_in_series(transfers, "points", "the uncertainty of the temperatures alone contains")
+    warnings += heat_warnings(scene, points, "points")
     return {
         "curves": [
             {

@@ -12,6 +12,7 @@ from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.balanced import balanced
 from roughfilm.rom.bearing.thermal.exchange import coldest, exchange_of, temperatures
+from roughfilm.rom.bearing.thermal.leading import leading_input
 
 TEMPERATURE_TOLERANCE = 1e-4
 """Error of the temperature of a film at which its search stops, K."""
@@ -27,9 +28,11 @@ class HeatedSearch:
     Attributes
     ----------
     isothermal : the films at any given temperature.
+    part : heat transfer to the surroundings over the one that is estimated where none is given.
     """
 
     isothermal: Search
+    part: float = 1.0
     _known: dict[float, tuple[float, float]] = field(default_factory=dict)
     _last: dict[OperatingPoint, tuple[float, Search]] = field(default_factory=dict)
 
@@ -80,7 +83,7 @@ class HeatedSearch:
 
         def equilibrium(temperature: float) -> float:
             search = self.at(temperature)
-            state = heated_state(film(search), self.scene)
+            state = heated_state(film(search), self.scene, part=self.part)
             last[:] = [(state, search)]
             assert state.temperatures is not None
             return state.temperatures.effective
@@ -114,7 +117,8 @@ class HeatedSearch:
             found[:] = [search.lift_off(pressure, found[0] if math.isfinite(found[0]) else near)]
             if not 0 < found[0] < math.inf:
                 return temperature
-            state = heated_state(search.again(found[0], pressure, self.asperities.touching), self.scene)
+            again = search.again(found[0], pressure, self.asperities.touching)
+            state = heated_state(again, self.scene, part=self.part)
             assert state.temperatures is not None
             return state.temperatures.effective
 
@@ -129,18 +133,37 @@ class HeatedSearch:
         """The films on a grid of half as many cells."""
         return replace(self, isothermal=self.isothermal.coarser(), _known=dict(self._known), _last={})
 
+    def with_part(self, part: float) -> Self:
+        """The films whose bearing gives off a part of the heat that it is estimated to."""
+        return replace(self, part=part, _known=dict(self._known), _last={})
 
-def heated_state(state: MixedState, scene: Bearing) -> MixedState:
+
+def heated_state(state: MixedState, scene: Bearing, *, part: float = 1.0) -> MixedState:
     """The film with the temperatures that its heat brings about.
 
     Parameters
     ----------
     scene : the bearing with the lubricant as it is supplied.
+    part : heat transfer to the surroundings over the one that is estimated where none is given.
     """
     liquid = scene.lubricant.liquid
     quantities = bearing_quantities(state.scene, state.solution, state.contact.force)
     exchange = exchange_of(state.scene, state.solution, quantities, liquid.temperature)
-    return replace(state, temperatures=temperatures(exchange, liquid))
+    return replace(state, temperatures=temperatures(exchange, liquid, part=part))
+
+
+def leading_of(state: MixedState, scene: Bearing) -> str:
+    """The input on which the temperature of a film depends most; "" of an isothermal film, or if it is small.
+
+    Parameters
+    ----------
+    scene : the bearing with the lubricant as it is supplied.
+    """
+    if state.temperatures is None:
+        return ""
+    quantities = bearing_quantities(state.scene, state.solution, state.contact.force)
+    at = state.temperatures.effective
+    return leading_input(state.scene, state.solution, quantities, scene.lubricant.liquid, at)
 
 
 def with_temperature(search: Search) -> Search:

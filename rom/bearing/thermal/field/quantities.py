@@ -15,7 +15,7 @@ from roughfilm.rom.bearing.thermal.field.films import HeatedSolution
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.field.hot_spots import circulating_uncertainty, keeps_its_heat
 from roughfilm.rom.bearing.thermal.field.residual import iteration
-from roughfilm.rom.bearing.thermal.leading import leading_input
+from roughfilm.rom.bearing.thermal.leading import leading_input, leading_warning
 from roughfilm.rom.bearing.uncertainty import HOTTEST_PLACE
 from roughfilm.rom.cavitation.grid import film_areas
 from roughfilm.rom.cavitation.solve import Solution
@@ -130,7 +130,8 @@ class HeatedOutputs:
         if not (found.to_fixed_wall or found.to_sliding_wall):
             mean = float(temperature.mean())
             plain, liquid = self.base.quantities(scene, solution), scene.lubricant.liquid
-            unsettled = [*unsettled, *leading_input(scene, solution, plain, liquid, mean, insulated=True)]
+            leading = leading_input(scene, solution, plain, liquid, mean, insulated=True)
+            unsettled = [*unsettled, *leading_warning(leading)]
         circulates = isinstance(solution, HeatedSolution) and keeps_its_heat(solution)
         return [*self.base.warnings(scene, solution), *hot, *unsettled, *([CIRCULATES] if circulates else [])]
 
@@ -162,7 +163,9 @@ def _quantities(solution: Solution, found: HeatedFilm) -> dict[str, Quantity]:
     return {name: Quantity(value=value, unit=unit) for name, (value, unit) in values.items()}
 
 
-def iteration_uncertainties(levels: Sequence[Solution], quantities: Mapping[str, Quantity]) -> dict[str, float]:
+def iteration_uncertainties(
+    _scene: Bearing, levels: Sequence[Solution], quantities: Mapping[str, Quantity]
+) -> dict[str, float]:
     """The uncertainty of each quantity that the iteration of film and temperatures leaves, in its unit.
 
     An error of ln η changes loads, friction and flows by as much relative to them, and temperatures by that over the

@@ -15,7 +15,7 @@ from roughfilm.rom.bearing.dynamics.wall_errors import wall_errors
 from roughfilm.rom.bearing.march.rough_walls import walls_of
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
-from roughfilm.words.dynamics import heat_warnings
+from roughfilm.words.heat import heat_warnings
 
 COLD, DENSITY, CAPACITY, ETA, BETA = 40.0, 870.0, 2000.0, 0.03, 0.035
 OIL = {
@@ -148,7 +148,7 @@ def test_an_estimated_heat_transfer_makes_every_number_uncertain_by_a_factor_of_
     assert point.uncertainty["temperature"] == pytest.approx(hotter - own, rel=0.1)
     thicker = math.exp(-BETA * (colder - own)) - 1
     assert point.uncertainty["damping_xx"] > abs(thicker) * point.numbers["damping_xx"]
-    (warning,) = heat_warnings(scene, [curve])
+    (warning,) = heat_warnings(scene, curve.points, "speeds")
     assert warning.startswith("temperature: at 2 of 2 speeds it depends most on heat.heat_transfer and heat.area, ")
     given = scene_of(BORE, oil=full, heat={"heat_transfer": "300 W/(m^2*K)", "area": "20 cm^2"})
     (known,) = swept(given, speed, pressure=load).points

@@ -356,6 +356,26 @@ def test_a_film_without_flow_is_cooled_as_a_bearing_in_still_air_and_says_so():
     assert [one for one in result.warnings if "heat.heat_transfer and heat.area" in one]
 
 
+@pytest.mark.parametrize("speed", [0.5, 5.0, 20.0])
+def test_an_estimated_heat_transfer_makes_the_temperature_uncertain_by_a_factor_of_two(speed):
+    """A concentric shaft gives Petroff's friction to the surroundings: a Lambert function.
+
+    The uncertainty is of first order in the change, and contains both ends without being twice as large.
+    """
+    area, still = 50e-3 * 40e-3, {"sides": {"low": "0.1 MPa", "high": "0.1 MPa"}}
+    result = solved(BORE | {"eccentricity": [0.0, 0.0]}, boundary=still, speed=f"{speed} m/s")
+
+    def temperature(transfer):
+        rise = 2 * math.pi * ETA * speed**2 * 25e-3 * 40e-3 / 30e-6 / (transfer * area)
+        return COLD + lambertw(BETA * rise).real / BETA
+
+    colder, own, hotter = (temperature(part * 300.0) for part in (2.0, 1.0, 0.5))
+    found = result["effective_temperature"]
+    assert found.value == pytest.approx(own, abs=1e-3)
+    widest = max(own - colder, hotter - own)
+    assert widest <= found.uncertainty < 2 * widest
+
+
 def test_a_slow_journal_in_cool_air_leaves_no_lubricant_colder_than_the_air():
     air = {"heat_transfer": "20 W/(m^2*K)", "area": "0.1 m^2", "surroundings": "20 degC"}
     oil = {"temperature": "60 degC"}

@@ -11,7 +11,7 @@ from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.mixed.curves import curve_inputs
 from roughfilm.rom.bearing.mixed.store import known_points, numbers_of, save_points, write_csv
-from roughfilm.rom.bearing.mixed.stribeck import stribeck
+from roughfilm.rom.bearing.mixed.stribeck import UNCERTAIN, stribeck
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.scene import read_scene
 
@@ -80,8 +80,39 @@ def test_points_whose_heat_transfer_is_estimated_are_said_once():
     entries = curve_entries(scene, curves, None, speeds)
     (warning,) = [one for one in entries["provenance"]["warnings"] if "heat.heat_transfer and heat.area" in one]
     assert warning.startswith("temperature: at 1 of 2 points ")
-    assert warning.endswith("; the uncertainty of the temperatures alone contains a factor of two of it")
+    assert warning.endswith("; the uncertainty contains a factor of two of it")
     assert entries["units"]["estimated_heat_transfer"] == "W/K"
+
+
+def test_every_value_contains_a_factor_of_two_of_an_estimated_heat_transfer():
+    """Given heat transfers of half and twice of it lead to values within the uncertainty, which they reach."""
+    speed, pressure = 0.3, 1e5
+    ((point,),) = (one.points for one in stribeck(scene_of(JOURNAL), [speed], [pressure], resolution=CELLS))
+    assert point.estimated_heat_transfer > 0.1
+    for name in UNCERTAIN:
+        assert math.isfinite(point.uncertainty[name]), name
+    reached = dict.fromkeys((*UNCERTAIN, "temperature"), 0.0)
+    for part in (0.5, 2.0):
+        heat = {"heat_transfer": f"{part * point.estimated_heat_transfer!r} W/(m^2*K)", "area": "1 m^2"}
+        curves = stribeck(scene_of(JOURNAL, heat=heat), [speed], [pressure], resolution=CELLS)
+        ((other,),) = (one.points for one in curves)
+        for name in reached:
+            change = abs(getattr(other, name) - getattr(point, name))
+            assert change <= 1.05 * point.uncertainty[name] + 1e-9 * abs(getattr(point, name)), name
+            reached[name] = max(reached[name], change / point.uncertainty[name] if point.uncertainty[name] else 0.0)
+    assert reached["temperature"] > 0.8
+    assert reached["friction"] > 0.3
+    assert point.temperature > 40.5
+
+
+def test_the_input_that_leads_is_named_where_no_heat_transfer_is_estimated():
+    """At 20 m/s oil that is 5 K warmer, and flows away, makes the film about 5 K warmer at most."""
+    scene = scene_of(JOURNAL, speed="20 m/s")
+    curves = stribeck(scene, [20.0], [1e6], resolution=CELLS)
+    (point,) = curves[0].points
+    assert point.leading.startswith("it depends most on ")
+    (warning,) = [one for one in curve_entries(scene, curves, None, [20.0])["provenance"]["warnings"] if "most" in one]
+    assert warning == f"temperature: at 7639 rpm under 1 MPa {point.leading}"
 
 
 def test_heat_lowers_friction_and_film_at_high_speeds_and_leaves_low_ones():
