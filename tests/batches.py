@@ -118,12 +118,12 @@ def group(pid):
         return None
 
 
-def wait_for(condition, seconds=60.0):
+def wait_for(condition, seconds=60.0, *, every=0.02):
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:
         if found := condition():
             return found
-        time.sleep(0.001)
+        time.sleep(every)
     raise AssertionError("it did not happen")
 
 

@@ -181,7 +181,9 @@ def test_killed_while_it_writes_it_leaves_no_part_of_a_result(tmp_path):
     study = write_study(tmp_path / "s.toml", models=["moody"])
     for _ in range(2):
         batch = Batch(study, out, tmp_path, megabytes=60)
-        wait_for(partial(lambda batch: [*out.glob("cases/*/.roughfilm-*/moody*")] or not batch.runs(), batch))
+        wait_for(
+            partial(lambda batch: [*out.glob("cases/*/.roughfilm-*/moody*")] or not batch.runs(), batch), every=0.001
+        )
         batch.process.kill()
         batch.end()
         unfinished += len([*out.glob("cases/*/.roughfilm-*/moody.h5")])
