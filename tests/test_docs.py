@@ -157,7 +157,7 @@ def test_tables_are_valid_in_a_file_of_another_folder(text: str, elsewhere: Path
     if "name" in entries or "kind" in entries:
         file.write_text(text)
         if "name" in entries:
-            assert load_study(file, models()).cases
+            assert load_study(file, models).cases
         else:
             assert read_description(file).kind == entries["kind"]
         return

@@ -5,7 +5,7 @@ import itertools
 import json
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +16,7 @@ from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.faults import EntriesFile
 from roughfilm.contact.foundation.toml import toml_value
 from roughfilm.rom.ladder.kind import Scene
-from roughfilm.rom.ladder.model import Model, of_kind
+from roughfilm.rom.ladder.model import Model
 from roughfilm.rom.ladder.scene import kind_named, load_entries, read_scene, scene_entries
 from roughfilm.rom.ladder.setting import Setting, read_settings
 from roughfilm.rom.studies.relative import resolve_relative
@@ -68,7 +68,7 @@ class Study:
     __repr__ = brief
 
 
-def load_study(path: Path, models: Sequence[Model]) -> Study:
+def load_study(path: Path, models: Callable[[str | None], Sequence[Model]]) -> Study:
     """Read a study file: a scene in which lists of numbers or texts are swept, in every combination.
 
     ``[[variants]]`` are tables that replace entries of the scene, one table at a time, to vary several keys together.
@@ -80,7 +80,7 @@ def load_study(path: Path, models: Sequence[Model]) -> Study:
     Parameters
     ----------
     path : the study file (TOML).
-    models : all models; those of the kind of scene are used.
+    models : gives the models of a kind of scene.
 
     Raises
     ------
@@ -104,7 +104,7 @@ def load_study(path: Path, models: Sequence[Model]) -> Study:
         keys, cases = _multiplied(bases, frozenset[Key]() if kind is None else kind.lists)
     except RecursionError:
         raise InputError(f"{path}: tables are nested too deep; a scene has two or three levels") from None
-    settings = read_settings(table, models if kind is None else of_kind(models, kind.name))
+    settings = read_settings(table, models(None if kind is None else kind.name))
     return Study(name=cases[0].scene.name, keys=keys, cases=cases, settings=settings)
 
 

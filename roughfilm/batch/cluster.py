@@ -77,9 +77,9 @@ class Cluster:
     _asked: float = 0.0
     _deserted_since: float | None = None
 
-    def models(self) -> tuple[Model, ...]:
-        """All models, each available where a worker can run it; the workers are asked when a study needs one."""
-        return tuple(replace(one, available=partial(self._availability, one.kind, one.name)) for one in models())
+    def models(self, kind: str | None) -> tuple[Model, ...]:
+        """The models of a kind, each available where a worker can run it; workers are asked when a study needs one."""
+        return tuple(replace(one, available=partial(self._availability, one.kind, one.name)) for one in models(kind))
 
     def count(self) -> int:
         """The number of workers, each of which runs one job at a time."""

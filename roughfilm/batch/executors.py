@@ -47,7 +47,7 @@ class Processes(ThreadPoolExecutor):
     def __init__(self, count: int, scratch: Path) -> None:
         super().__init__(count)
         self._context = multiprocessing.get_context("forkserver")
-        self._context.set_forkserver_preload(["roughfilm.batch.execute"])
+        self._context.set_forkserver_preload(["roughfilm.batch.execute", *_imported_models()])
         _place_socket()
         handler = signal.signal(signal.SIGINT, signal.SIG_IGN)  # children inherit this and ignore Ctrl-C
         forkserver.ensure_running()
@@ -100,6 +100,11 @@ class Processes(ThreadPoolExecutor):
                 _kill(process)
             process.join()
         super().shutdown(wait=wait)
+
+
+def _imported_models() -> list[str]:
+    """The modules of models that this process has imported, which all workers then share."""
+    return [name for name in sys.modules if name.startswith("roughfilm.") and ".models." in name]
 
 
 @cache

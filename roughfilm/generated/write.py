@@ -49,7 +49,7 @@ def study_to_generate(path: Path) -> Study | None:
     """
     named = {"study", "variants"} & load_entries(path).keys()
     try:
-        study = load_study(path, [_as_if_available(model) for model in models()])
+        study = load_study(path, lambda kind: [_as_if_available(model) for model in models(kind)])
     except InputError:
         if named:
             raise

@@ -45,7 +45,7 @@ def load_study(path: str | os.PathLike[str]) -> study.Study:
     >>> len(study.cases), [setting.name for setting in study.settings]
     (12, ['reynolds', 'inertial_reynolds'])
     """
-    return study.load_study(named_path("path", path), ladder.models())
+    return study.load_study(named_path("path", path), ladder.models)
 
 
 def run_study(

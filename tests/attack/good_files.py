@@ -375,7 +375,7 @@ ANSWERS = {
 KINDS = {
     "scene": GoodFile(_copied(SCENES / "pocket.toml"), load_scene),
     "scene of a bearing": GoodFile(_copied(SCENES / "textured_slider.toml"), load_scene),
-    "study": GoodFile(_copied(STUDIES / "groove_depth.toml"), lambda path: load_study(path, models())),
+    "study": GoodFile(_copied(STUDIES / "groove_depth.toml"), lambda path: load_study(path, models)),
     "description": GoodFile(
         _copied(SURFACES / "self_affine.toml"),
         lambda path: _small(path) and None,

@@ -57,7 +57,7 @@ def command(
     processes = process_count(jobs)
     limit = waiting_time(executor, scheduler, tls, wait)
     with nullcontext() if scheduler is None else dask(scheduler, wait=limit, tls=tls) as cluster:
-        read = load_study(study, models() if cluster is None else cluster.models())
+        read = load_study(study, models if cluster is None else cluster.models)
         if cluster is not None:
             _say_lacking(cluster)
         progress = BatchProgress()

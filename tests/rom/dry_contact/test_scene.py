@@ -4,15 +4,13 @@ import numpy as np
 import pytest
 from places import SCENES
 
-from roughfilm import rom
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.rom.ladder.model import ladder
+from roughfilm.ladder import models
 from roughfilm.rom.ladder.scene import load_scene, read_scene, scene_entries
 from roughfilm.rom.studies.study import as_toml, load_study
 
-MODELS = ladder(rom)
 EXAMPLE = SCENES / "dry_contact.toml"
 
 
@@ -134,17 +132,17 @@ wavelength_x = "0.5 mm"
 models = ["elastic", "bearing_area"]
 """
     (tmp_path / "study.toml").write_text(text, encoding="utf-8")
-    study = load_study(tmp_path / "study.toml", MODELS)
+    study = load_study(tmp_path / "study.toml", models)
     assert len(study.cases) == 2 * 2 * 3
     assert {case.scene.surface().shape for case in study.cases} == {(16, 32), (32, 64)}
     assert [setting.model.name for setting in study.settings] == ["elastic", "bearing_area"]
     (tmp_path / "study.toml").write_text(text.replace('"elastic", ', '"reynolds", '), encoding="utf-8")
     with pytest.raises(InputError, match=r"study\.models: got 'reynolds'; it must be one of greenwood_williamson"):
-        load_study(tmp_path / "study.toml", MODELS)
+        load_study(tmp_path / "study.toml", models)
 
 
 def test_kinds_are_not_mixed_in_a_study(tmp_path):
     text = EXAMPLE.read_text(encoding="utf-8") + '\n[[variants]]\nkind = "pocket"\n'
     (tmp_path / "study.toml").write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match="variants: got a kind"):
-        load_study(tmp_path / "study.toml", MODELS)
+        load_study(tmp_path / "study.toml", models)

@@ -80,7 +80,7 @@ def test_a_text_that_equals_the_name_of_a_file_is_no_file(folder: Path) -> None:
 
 
 def test_files_are_swept(folder: Path) -> None:
-    study = load_study(written(folder, CONTACT.format(surface='["a.npy", "b.npy"]')), models())
+    study = load_study(written(folder, CONTACT.format(surface='["a.npy", "b.npy"]')), models)
     assert [case.varied["surface"] for case in study.cases] == ["a.npy", "b.npy"]
     heights = [float(case.scene.geometry.read().heights.max()) for case in study.cases]
     assert heights == pytest.approx([1e-6, 2e-6])

@@ -2,6 +2,7 @@
 
 import json
 import re
+from functools import partial
 
 import pytest
 from places import STUDIES
@@ -9,7 +10,7 @@ from places import STUDIES
 from roughfilm import foamcases, rom
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
 from roughfilm.ladder import find
-from roughfilm.rom.ladder.model import Availability, ladder
+from roughfilm.rom.ladder.model import Availability, ladder, of_kind
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.rom.studies.relative import resolve_relative
 from roughfilm.rom.studies.study import as_toml, load_study
@@ -41,7 +42,7 @@ def study(tmp_path):
             text = text.replace(old, new)
         path = tmp_path / "study.toml"
         path.write_text(text + more, encoding="utf-8")
-        return load_study(path, models)
+        return load_study(path, partial(of_kind, models))
 
     return read
 
@@ -200,7 +201,7 @@ def test_the_published_table_has_its_640_cases():
 
     Figs. A.3 and A.4 show eight more, at Re = 10.
     """
-    found = load_study(STUDIES / "paper_a.toml", ladder(rom, foamcases))
+    found = load_study(STUDIES / "paper_a.toml", partial(of_kind, MODELS))
     groups = {}
     for case in found.cases:
         if case.scene.reynolds_number == 10:
@@ -224,7 +225,7 @@ def test_the_published_table_has_its_640_cases():
 
 
 def test_the_first_study_is_cheap():
-    found = load_study(STUDIES / "pocket.toml", MODELS)
+    found = load_study(STUDIES / "pocket.toml", partial(of_kind, MODELS))
     assert len(found.cases) == 12
     assert sum(setting.cost(case.scene) for setting in found.settings for case in found.cases) < 1
     assert find("pocket", "reynolds") in [setting.model for setting in found.settings]

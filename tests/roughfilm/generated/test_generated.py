@@ -132,7 +132,7 @@ def test_the_table_is_that_of_a_batch(solved, tmp_path, name, text):
 @pytest.mark.openfoam
 def test_a_batch_and_a_report_find_the_results(solved):
     file, out = solved("gaps", GAPS)
-    study = load_study(file, models())
+    study = load_study(file, models)
     rows, missing = batch_answers(study, tasks_of(study, out), BatchProgress())
     assert (len(rows), missing) == (4, [])
     batch = read_batch(out)
@@ -513,5 +513,5 @@ def test_copies_are_made_in_the_order_of_their_names(tmp_path, monkeypatch):
     for name in names:
         np.save(name, np.zeros((2, 2)))
     monkeypatch.setattr(write, "named_files", lambda _: frozenset(names))
-    study = load_study(generate(GROOVES, tmp_path / "out"), models())
+    study = load_study(generate(GROOVES, tmp_path / "out"), models)
     assert list(write._copied_inputs(study, tmp_path)) == sorted(names)
