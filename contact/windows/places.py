@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import scipy
 
-from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.parameters.autocorrelation import DECAY_THRESHOLD, autocorrelation
 from roughfilm.contact.preparation.window import Window
@@ -15,6 +15,12 @@ from roughfilm.contact.surfaces.surface import Surface
 
 MAX_WINDOWS = 10_000
 """Largest number of windows of one measurement."""
+
+STEPS = 8
+"""Number of starts of a further window along its side that are tried."""
+
+MAX_OVERLAP = 0.5
+"""Largest part of a further window that another one covers."""
 
 MAX_ASPECT = 4.0
 """Largest ratio of the distances of neighbours along x and along y, in units of the window, that is considered."""
@@ -63,6 +69,63 @@ def window_places(shape: tuple[int, int], window_shape: tuple[int, int], count: 
     return tuple(
         Window(start=(int(x), int(y)), shape=window_shape) for x, ys in zip(along_x, along_y, strict=True) for y in ys
     )
+
+
+def valid_places(places: Sequence[Window], invalid: Mask, most: float) -> tuple[Window, ...]:
+    """The places with few invalid points, and others in place of those with many, as far as there are any.
+
+    Others start at multiples of an eighth of a window, and at the ends of the measurement. That is taken in turn which
+    overlaps the taken ones least, and of these that with the fewest invalid points; a place that one of them covers by
+    more than half is none.
+
+    Parameters
+    ----------
+    places : windows of one shape, one or more.
+    invalid : mask of the invalid points of the measurement, shape (nx, ny).
+    most : largest fraction of invalid points of a window.
+
+    Returns
+    -------
+    tuple of Window : as many as given, or fewer; those given that stay come first.
+
+    Examples
+    --------
+    >>> hole = np.zeros((40, 20), dtype=bool)
+    >>> hole[:10] = True
+    >>> [one.start for one in valid_places(window_places((40, 20), (10, 10), 4), hole, 0.25)]
+    [(30, 0), (30, 10), (10, 0), (10, 10)]
+    """
+    shape = places[0].shape
+    taken = [window for window in places if invalid[window.slices].mean() <= most]
+    if len(taken) == len(places):
+        return tuple(taken)
+    along = [
+        np.unique(np.append(np.arange(0, count - size, max(1, size // STEPS)), count - size))
+        for count, size in zip(invalid.shape, shape, strict=True)
+    ]
+    sums = np.pad(invalid.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
+    (x, y), (nx, ny) = np.ix_(*along), shape
+    filled = (sums[x + nx, y + ny] - sums[x, y + ny] - sums[x + nx, y] + sums[x, y]) / (nx * ny)
+    covered = np.zeros_like(filled)
+
+    def cover(window: Window) -> None:
+        parts = (
+            np.clip(1 - np.abs(starts - first) / size, 0, None)
+            for starts, first, size in zip((x, y), window.start, shape, strict=True)
+        )
+        np.maximum(covered, math.prod(parts), out=covered)
+
+    for window in taken:
+        cover(window)
+    allowed = filled <= most
+    while len(taken) < len(places):
+        rank = np.where(allowed & (covered <= MAX_OVERLAP), covered + filled / invalid.size, np.inf)
+        i, j = np.unravel_index(rank.argmin(), rank.shape)
+        if np.isinf(rank[i, j]):
+            break
+        taken.append(Window(start=(int(along[0][i]), int(along[1][j])), shape=shape))
+        cover(taken[-1])
+    return tuple(taken)
 
 
 def _shares(count: int, columns: int) -> Array:

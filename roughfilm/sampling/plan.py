@@ -22,7 +22,7 @@ from roughfilm.contact.synthetic.description import (
     read_description,
     read_entries,
 )
-from roughfilm.contact.windows.places import MAX_WINDOWS, independent_windows, window_places
+from roughfilm.contact.windows.places import MAX_WINDOWS, independent_windows, valid_places, window_places
 from roughfilm.rom.ladder.model import Progress
 from roughfilm.sampling.warnings import counted
 
@@ -42,7 +42,7 @@ DECAY_LENGTHS = 5.0
 """Side of a window over the decay length Sal below which a warning is given."""
 
 MAX_FILLED, FILLED_OVER_MEAN = 0.25, 1.25
-"""Fraction of invalid points above which a place is left out, and the same over that of the measurement, if larger."""
+"""Fraction of invalid points above which a place is not taken, and the same over that of the measurement, if larger."""
 
 SEEDS_APART = 100_000
 """Difference of the first seeds of two sizes."""
@@ -184,17 +184,23 @@ def _of_measurement(
 
 
 def _with_valid_points(levelled: Levelled, places: Sequence[Window]) -> tuple[tuple[Window, ...], list[str]]:
-    """The places that have enough valid points, and a sentence with the number of those that are left out."""
+    """The places that have enough valid points, with others for those that have not, and a sentence on their numbers.
+
+    Raises InputError if no place has enough.
+    """
     invalid = levelled.trusted.invalid
     most = min(max(MAX_FILLED, FILLED_OVER_MEAN * float(invalid.mean())), MAX_INVALID_FRACTION)
-    kept = tuple(window for window in places if invalid[window.slices].mean() <= most)
-    if len(kept) == len(places):
-        return kept, []
+    found = valid_places(places, invalid, most)
     nx, ny = places[0].shape
-    many = f"of {len(places)} places for windows of {nx} x {ny} pixels have more than {100 * most:.0f} % invalid points"
-    if not kept:
-        raise InputError(f"windows: {len(places)} {many}; take smaller windows or measure again")
-    return kept, [f"{len(places) - len(kept)} {many} and are left out"]
+    many = f"for windows of {nx} x {ny} pixels have more than {100 * most:.0f} % invalid points"
+    if not found:
+        raise InputError(f"windows: all places {many}; take smaller windows or measure again")
+    bad = sum(window not in found for window in places)
+    if not bad:
+        return found, []
+    others, fewer = len(found) - len(places) + bad, len(places) - len(found)
+    ends = ([f"{others} taken elsewhere"] if others else []) + ([f"{fewer} left out"] if fewer else [])
+    return found, [f"{bad} of {len(places)} places {many}: {', '.join(ends)}"]
 
 
 def _with_one_edge(levelled: Levelled, recipe: Recipe, smallest: tuple[int, int]) -> Recipe:

@@ -8,7 +8,7 @@ import pytest
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.preparation.window import Window
 from roughfilm.contact.surfaces.surface import Surface
-from roughfilm.contact.windows.places import independent_windows, window_places
+from roughfilm.contact.windows.places import independent_windows, valid_places, window_places
 from roughfilm.contact.windows.scatter import scatter
 
 
@@ -35,6 +35,22 @@ def test_more_windows_than_fit_overlap_and_are_worth_less():
 def test_two_windows_that_share_half_are_worth_one_and_a_third():
     pair = [Window(start=(0, 0), shape=(10, 8)), Window(start=(5, 0), shape=(10, 8))]
     assert independent_windows(pair) == pytest.approx(4 / 3)
+
+
+def test_places_with_many_invalid_points_are_replaced_where_others_overlap_by_half_at_most():
+    invalid = np.ones((90, 60), dtype=bool)
+    invalid[20:60, 10:40] = False
+    places = window_places((90, 60), (20, 20), 12)
+    found = valid_places(places, invalid, 0.25)
+    kept = [one for one in places if invalid[one.slices].mean() <= 0.25]
+    assert list(found[: len(kept)]) == kept
+    assert len(kept) < len(found) < 12
+    starts = np.array([one.start for one in found])
+    covered = np.clip(1 - np.abs(starts[:, None] - starts) / 20, 0, None).prod(axis=2)
+    assert covered[~np.eye(len(found), dtype=bool)].max() <= 0.5
+    assert max(invalid[one.slices].mean() for one in found) <= 0.25
+    assert valid_places(places, np.zeros_like(invalid), 0.25) == places
+    assert valid_places(places, np.ones_like(invalid), 0.25) == ()
 
 
 def test_windows_along_a_lay_are_one_window():
