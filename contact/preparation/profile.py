@@ -8,20 +8,24 @@ from roughfilm.contact.preparation.form import ORDERS
 from roughfilm.contact.preparation.recipe import Recipe
 from roughfilm.contact.surfaces.profile import CONSTANT, Profile
 
+OF_SURFACES = ("outliers", "window", "grid", "edges", "smoothing")
+"""Steps of a recipe that a profile does not have."""
+
 
 def prepare_profile(profile: Profile, recipe: Recipe) -> Profile:
     """Subtract the polynomial of the form, then filter with the nesting indices λs and λc of the recipe.
 
     The polynomial fits all points by least squares; its order is that of the areal form. The S-filter takes the
     Gaussian mean line of the index ``s_filter``, the L-filter subtracts that of ``l_filter``. Without an L-filter the
-    result is the primary profile, with one the roughness profile. The other steps of a recipe are for surfaces.
+    result is the primary profile, with one the roughness profile.
 
     Raises
     ------
     InputError
-        If a nesting index is shorter than the distance of the points or longer than the profile, or all heights are
-        equal once the form is removed.
+        If the recipe sets a step of ``OF_SURFACES``, a nesting index is shorter than the distance of the points or
+        longer than the profile, or all heights are equal once the form is removed.
     """
+    _refuse_steps_of_surfaces(recipe)
     heights, places = profile.heights, np.linspace(-1, 1, profile.heights.size)
     if recipe.form != "none":
         order = min(ORDERS[recipe.form], heights.size - 1)
@@ -40,3 +44,14 @@ def prepare_profile(profile: Profile, recipe: Recipe) -> Profile:
         raise InputError("profile: all heights are the same once its form is removed; there is no roughness")
     scale = {"form": recipe.form, "s_filter": recipe.s_filter, "l_filter": recipe.l_filter}
     return Profile(heights=heights, spacing=profile.spacing, source={**profile.source, "scale": scale})
+
+
+def _refuse_steps_of_surfaces(recipe: Recipe) -> None:
+    given = [step for step in OF_SURFACES if step in recipe.model_fields_set]
+    if recipe.s_filter is not None and recipe.smoothing == 1:  # which an S-filter sets
+        given = [step for step in given if step != "smoothing"]
+    if given:
+        raise InputError(
+            f"{', '.join(given)}: got for a profile, whose steps are form, s_filter and l_filter; leave "
+            f"{'it' if len(given) == 1 else 'them'} out of the recipe"
+        )

@@ -271,3 +271,19 @@ def test_a_profile_has_no_cell(run, tmp_path, option):
     assert done.exit_code == 2
     assert "is a profile, which has no cell" in " ".join(done.output.split())
     assert not (tmp_path / "x").exists()
+
+
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
+        (["smoothing=1"], "smoothing: got for a profile"),
+        (["edges.direction=x", "outliers.limit=0"], "outliers, edges: got for a profile"),
+        (["s_filter=3 um"], None),
+    ],
+)
+def test_steps_that_a_profile_does_not_have_are_refused(run, tmp_path, keys, said):
+    profile_file(tmp_path / "p.csv")
+    options = [part for key in ("read.height_unit=um", *keys) for part in ("--set", key)]
+    done = run(tmp_path / "p.csv", *options)
+    assert done.exit_code == (0 if said is None else 2), done.output
+    assert said is None or said in " ".join(done.output.split())
