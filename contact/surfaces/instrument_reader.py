@@ -14,6 +14,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.surfaces.tiff import SIGNATURES, read_tiff
 from roughfilm.contact.surfaces.x3p import repaired
 
 FORMATS_WITHOUT_SIGNATURE = {"hgt", "nms"}
@@ -37,7 +38,9 @@ SIGNATURE_BYTES = 512
 EQUIDISTANT = 1e-3
 """Largest relative difference of two steps of a profile whose points count as equidistant."""
 
-UNKNOWN_FORMAT = "is in no format that is known here, or damaged; export it again from the instrument"
+UNKNOWN_FORMAT = (
+    "is in no format that is known here, or damaged; export it again, as X3P, SUR, SDF, TIFF of heights, CSV or text"
+)
 NO_MAP = "holds no map and no profile of heights; export one from the instrument"
 
 
@@ -94,7 +97,7 @@ def _read(path: str, channel: str | None, most: int) -> tuple[dict[str, Any], An
     try:
         reader = _opened(path, most)
     except InputError as error:
-        return {"fault": str(error)}, None
+        return _of_image(path, channel, most) or ({"fault": str(error)}, None)
     channels = [one for one in reader.channels if one.dim in (1, 2)]
     listed = [f"{one.name!r} ({' x '.join(str(int(n)) for n in one.nb_grid_pts)})" for one in channels]
     names = ", ".join(listed[:MAX_NAMED]) + (f" and {len(listed) - MAX_NAMED} more" if len(listed) > MAX_NAMED else "")
@@ -135,6 +138,19 @@ def _read(path: str, channel: str | None, most: int) -> tuple[dict[str, Any], An
     steps = [float(length) / count for length, count in zip(lengths, heights.shape, strict=True)] if bare else None
     header = {"shape": heights.shape, "height_unit": unit, "size": size, "steps": steps}
     return {**header, "format": reader.format(), "channel": chosen.name}, heights
+
+
+def _of_image(path: str, channel: str | None, most: int) -> tuple[dict[str, Any], Any] | None:
+    """The header and the heights of a TIFF that no reader of an instrument's takes; None for another format."""
+    with Path(path).open("rb") as file:
+        if not file.read(SIGNATURE_BYTES).startswith(SIGNATURES):
+            return None
+    try:
+        name, heights = read_tiff(path, channel, most)
+    except InputError as error:
+        return {"fault": str(error)}, None
+    header = {"shape": heights.shape, "height_unit": None, "size": None, "steps": None}
+    return {**header, "format": "tiff", "channel": name}, heights
 
 
 def main(request: dict[str, Any], out: BinaryIO) -> None:

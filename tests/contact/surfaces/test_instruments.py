@@ -236,3 +236,32 @@ def test_a_file_of_nms_is_read_by_its_own_reader(measured_file):
     found = read_surface(measured_file("areal.nms"))
     assert found.shape == (512, 512)
     assert found.heights[found.valid].std() == pytest.approx(0.4178e-6, rel=2e-4)
+
+
+@pytest.mark.parametrize(("numbers", "order"), [("f4", "<"), ("f8", ">"), ("u2", ">"), ("i1", "<")])
+def test_a_tiff_of_heights_is_read_with_a_row_for_each_y(tmp_path, numbers, order):
+    tifffile = pytest.importorskip("tifffile")
+    heights = np.arange(120, dtype=numbers).reshape(10, 12)
+    tifffile.imwrite(tmp_path / "map.tif", heights, byteorder=order)
+    with pytest.raises(InputError, match=r"gives no spacing of its points; set read.spacing"):
+        read_surface(tmp_path / "map.tif")
+    with pytest.raises(InputError, match=r"gives no unit of its heights; set read.height_unit"):
+        read_surface(tmp_path / "map.tif", spacing=(1e-6, 2e-6))
+    surface = read_surface(tmp_path / "map.tif", spacing=(1e-6, 2e-6), height_unit="nm")
+    assert np.array_equal(surface.heights, 1e-9 * heights.astype(float).T)
+    assert surface.spacing == (1e-6, 2e-6)
+
+
+def test_pages_of_a_tiff_are_channels_and_colours_are_no_heights(tmp_path):
+    tifffile = pytest.importorskip("tifffile")
+    pages = np.random.default_rng(1).standard_normal((2, 8, 9)).astype("f4")
+    tifffile.imwrite(tmp_path / "two.tif", pages, photometric="minisblack")
+    with pytest.raises(InputError, match=r"holds 2 pages: '1' \(9 x 8\), '2' \(9 x 8\); name one, as in read"):
+        read_surface(tmp_path / "two.tif")
+    found = read_surface(tmp_path / "two.tif", channel="2", spacing=(1e-6, 1e-6), height_unit="um")
+    assert found.heights == pytest.approx(1e-6 * pages[1].T.astype(float))
+    with pytest.raises(InputError, match=r"has no channel '3'; its pages are"):
+        read_surface(tmp_path / "two.tif", channel="3")
+    tifffile.imwrite(tmp_path / "rgb.tif", np.zeros((8, 9, 3), dtype="u1"), photometric="rgb")
+    with pytest.raises(InputError, match="is an image without a page of heights"):
+        read_surface(tmp_path / "rgb.tif")
