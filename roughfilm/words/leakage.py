@@ -1,6 +1,11 @@
 """Words and numbers of the leakage of a seal."""
 
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from roughfilm.contact.mechanics.solid import beyond_elasticity, contact_outside
 from roughfilm.rom.seal.at_load import SealAtLoad
+from roughfilm.rom.seal.kind import leakage_outside
 from roughfilm.rom.seal.leakage.percolation import Threshold
 from roughfilm.rom.seal.leakage.scatter import MEAN_SEALING_LOAD, SEALING_LOADS
 from roughfilm.rom.seal.leakage.series import Row
@@ -9,6 +14,7 @@ from roughfilm.rom.seal.model import leakage_of
 from roughfilm.rom.seal.scene import Seal
 from roughfilm.words.average import in_words as in_words_of
 from roughfilm.words.numbers import share
+from roughfilm.words.outside import outside_of_series
 from roughfilm.words.scales import Scale, scale_for
 
 WORDS = {
@@ -17,6 +23,35 @@ WORDS = {
     "homogenized_x": "periodic, x",
     "homogenized_y": "periodic, y",
 }
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnderLoad:
+    """A seal at one load: mean pressure, Pa, contact area fraction, largest pressure, Pa, and leakage, kg/(s m)."""
+
+    load: float
+    area_fraction: float
+    peak: float
+    leakage: float
+
+    def outside(self, seal: Seal) -> tuple[str, ...]:
+        """The sentences on contacts beyond linear elasticity, a leakage that is not laminar, and a gas."""
+        contacts = contact_outside(self.load, self.area_fraction, seal.composite_modulus)
+        return *contacts, *leakage_outside(seal, self.leakage)
+
+
+def range_warnings(seal: Seal, series: Iterable[UnderLoad]) -> list[str]:
+    """The warnings of loads outside the range of the model, and of those at which peaks alone exceed linear elasticity.
+
+    A few tips beyond the limit hardly change the gap between them.
+    """
+    named = [(f"{one.load / 1e6:.4g} MPa", one) for one in series]
+    beyond = outside_of_series([(place, one.outside(seal)) for place, one in named])
+    peaks = [
+        (place, () if one.outside(seal) else beyond_elasticity(one.peak, seal.composite_modulus))
+        for place, one in named
+    ]
+    return [*filter(None, [beyond, outside_of_series(peaks, "; ".join)])]
 
 
 def in_words(threshold: Threshold) -> str:

@@ -1,6 +1,6 @@
 """Results and series outside the range of their model, in words."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 
 def outside_in_words(reasons: Sequence[str]) -> str:
@@ -14,12 +14,15 @@ def outside_in_words(reasons: Sequence[str]) -> str:
     return f"outside the range of the model: {'; '.join(reasons)}; error unknown" if reasons else ""
 
 
-def outside_of_series(points: Sequence[tuple[str, Sequence[str]]]) -> str:
+def outside_of_series(
+    points: Sequence[tuple[str, Sequence[str]]], words: Callable[[Sequence[str]], str] = outside_in_words
+) -> str:
     """Which points of a series are outside the range of the model, with the reasons of the last one; "" without any.
 
     Parameters
     ----------
     points : the place of each point in words, such as "3000 rpm", and its reasons.
+    words : words(reasons), the reasons of one point in a line.
 
     Examples
     --------
@@ -31,4 +34,4 @@ def outside_of_series(points: Sequence[tuple[str, Sequence[str]]]) -> str:
         return ""
     first, last = beyond[0][0], beyond[-1][0]
     where = first if len(beyond) == 1 else f"from {first} to {last}"
-    return f"{outside_in_words(beyond[-1][1])}, at {len(beyond)} of {len(points)} points: {where}"
+    return f"{words(beyond[-1][1])}, at {len(beyond)} of {len(points)} points: {where}"

@@ -282,6 +282,7 @@ def _flow_of(body: SealSetup) -> Callable[[Contact], Row]:
             area_fraction=contact.area_fraction,
             plastic_fraction=contact.plastic_fraction,
             mean_gap=contact.mean_gap,
+            pressure_max=float(contact.pressure.max()),
             valley_depth=math.nan if flat else _valley_depth(contact, apart),
             cpu_s=time.thread_time() - cpu,
             **numbers,

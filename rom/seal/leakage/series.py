@@ -14,7 +14,7 @@ from roughfilm.contact.foundation.inputs import Inputs
 from roughfilm.contact.foundation.reading.hdf5_content import Content, Numbers, Text
 from roughfilm.rom.seal.leakage.percolation import Side, Threshold
 
-SCHEMA = 1
+SCHEMA = 2
 MARK = b"roughfilm leakage, HDF5 behind 512 bytes, sha256 "
 KIND = "series of leakage"
 REMEDY = "remove it or choose another place"
@@ -32,6 +32,7 @@ class Row:
     load : mean pressure, Pa.
     area_fraction, plastic_fraction : real and plastic area over the nominal area.
     mean_gap : mean gap, m.
+    pressure_max : largest pressure, Pa.
     valley_depth : Svm of the surface under load, m; NaN if it is flat.
     direct_x, direct_y, homogenized_x, homogenized_y : permeability, m³; exactly 0 if sealed.
     direct_x_uncertainty ... : uncertainty of the permeability, m³.
@@ -43,6 +44,7 @@ class Row:
     area_fraction: float
     plastic_fraction: float
     mean_gap: float
+    pressure_max: float
     valley_depth: float
     direct_x: float
     direct_y: float
@@ -64,7 +66,7 @@ NUMBERS = tuple(entry.name for entry in fields(Row))
 LAYOUT = {f"series/{name}": Numbers(shape=("rows",), missing=name != "load") for name in NUMBERS}
 """What a file holds for its rows."""
 
-UNITS = {"load": "Pa", "mean_gap": "m", "valley_depth": "m", "cpu_s": "s"} | {
+UNITS = {"load": "Pa", "mean_gap": "m", "pressure_max": "Pa", "valley_depth": "m", "cpu_s": "s"} | {
     name + more: "m^3" for name in SOUGHT for more in ("", "_uncertainty")
 }
 """Units of the numbers of a row; all others are dimensionless."""

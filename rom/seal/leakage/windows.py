@@ -72,6 +72,7 @@ class SealOfWindows:
     ----------
     loads : mean pressures, Pa.
     numbers : by the names in ``AVERAGED`` and ``SOUGHT``, the mean over the windows at each load, in SI units.
+    peaks : largest pressure of all windows at each load, Pa.
     in_series : by the names in ``SOUGHT``, the mean permeability of lanes at each load, m³.
     sealing : by the names in ``SOUGHT``, the sealing loads.
     answer : at one load ``leakage_per_width``, kg/(s m), of the whole length, ``area_fraction`` and ``mean_gap``, m.
@@ -84,6 +85,7 @@ class SealOfWindows:
 
     loads: tuple[float, ...]
     numbers: Mapping[str, tuple[WindowAverage, ...]]
+    peaks: tuple[float, ...]
     in_series: Mapping[str, tuple[float, ...]]
     sealing: Mapping[str, SealingLoads]
     answer: Mapping[str, WindowAverage]
@@ -177,6 +179,7 @@ def seal_of_windows(
     return SealOfWindows(
         loads=loads,
         numbers={name: tuple(column) for name, column in numbers.items()},
+        peaks=tuple(max(window.rows[load].pressure_max for window in windows) for load in loads),
         in_series={name: tuple(column) for name, column in in_series.items()},
         sealing={name: _sealing([one.thresholds[name] for one in windows], independent) for name in SOUGHT},
         answer=quantities,
@@ -192,9 +195,13 @@ def columns_of_windows(scene: Seal, seal: SealOfWindows) -> dict[str, tuple[str,
     """The units and values, by name, of the columns of a table with a row for each load.
 
     Each number has columns with its scatter and the ends of the interval for one window; a permeability also its
-    numerical uncertainty, the fraction of sealed windows, and the lower limit for windows in series.
+    numerical uncertainty, the fraction of sealed windows, and the lower limit for windows in series. The
+    largest pressure is that of all windows.
     """
-    columns: dict[str, tuple[str, list[float]]] = {"load": ("Pa", [*seal.loads])}
+    columns: dict[str, tuple[str, list[float]]] = {
+        "load": ("Pa", [*seal.loads]),
+        "pressure_max": ("Pa", [*seal.peaks]),
+    }
 
     def add(name: str, unit: str, values: Sequence[float]) -> None:
         columns[name] = unit, [*values]

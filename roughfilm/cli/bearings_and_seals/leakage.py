@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Annotated, Any
 
 import numpy as np
@@ -12,12 +12,10 @@ from rich.table import Table
 from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.writing.kinds import PAGE
-from roughfilm.contact.mechanics.solid import contact_outside
-from roughfilm.contact.mechanics.store import finished, load_contact
+from roughfilm.contact.mechanics.store import load_contact
 from roughfilm.contact.surfaces.periodicity import MISMATCH_THRESHOLD, is_joined_at_pixel_0, joint_mismatch
 from roughfilm.rom.ladder.scene import load_scene, scene_entries
 from roughfilm.rom.seal.at_load import SealAtLoad, seal_at_load
-from roughfilm.rom.seal.kind import leakage_outside
 from roughfilm.rom.seal.leakage.curve import SealSetup, chosen_loads, columns_of, seal_setup, sealing, solved
 from roughfilm.rom.seal.leakage.joint import EDGE_REMEDY, joint_seals
 from roughfilm.rom.seal.leakage.percolation import Threshold
@@ -39,9 +37,18 @@ from roughfilm.terminal.console import (
 from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.terminal.scenes import refuse_jobs, requested_loads, seal_of
-from roughfilm.words.leakage import WORDS, answer_in_words, in_words, leakage_scale, leaks, scatter_in_words
+from roughfilm.words.leakage import (
+    WORDS,
+    UnderLoad,
+    answer_in_words,
+    in_words,
+    leakage_scale,
+    leaks,
+    range_warnings,
+    scatter_in_words,
+)
 from roughfilm.words.numbers import digits, finite
-from roughfilm.words.outside import outside_in_words, outside_of_series
+from roughfilm.words.outside import outside_in_words
 
 EXAMPLES = (
     "roughfilm leakage scripts/examples/scenes/seal.toml --out seal",
@@ -131,10 +138,14 @@ def _entries(
     columns = {
         name: Column(values=values, unit=unit) for name, (unit, values) in columns_of(seal, [*rows.values()]).items()
     }
-    outside = {
-        load: contact_outside(load, row.area_fraction, seal.composite_modulus)
-        for load, row in finished(body.contacts, body.inputs).items()
+    leaks = np.array([column.values for column in columns.values() if column.unit == "kg/(m*s)"], dtype=float)
+    loaded = {
+        load: UnderLoad(
+            load=load, area_fraction=row.area_fraction, peak=row.pressure_max, leakage=float(np.nanmax(largest))
+        )
+        for (load, row), largest in zip(rows.items(), leaks.T, strict=True)
     }
+    asked = replace(loaded[answer.load], leakage=answer.leakage_per_width.value)
     quantities: dict[str, Any] = {
         "load": {"value": answer.load, "unit": "Pa"},
         "sealed": {"value": float(answer.sealed), "unit": "1"},
@@ -157,25 +168,14 @@ def _entries(
             for name, both in thresholds.items()
         },
         "numerics": {"points": body.surface.heights.size, "loads": len(rows)},
-        "outside": [*outside.get(answer.load, ()), *leakage_outside(seal, answer.leakage_per_width.value)],
+        "outside": list(asked.outside(seal)),
         "provenance": origin(
             SOURCES,
-            [*_outside_warnings(seal, columns, outside), *_warnings(seal, body, rows, thresholds)],
+            [*range_warnings(seal, loaded.values()), *_warnings(seal, body, rows, thresholds)],
             scene=scene_entries(seal),
         ),
     }
     return entries, columns
-
-
-def _outside_warnings(seal: Seal, columns: Mapping[str, Column], outside: Mapping[float, tuple[str, ...]]) -> list[str]:
-    """The warning on loads beyond elasticity, whose leakage is not laminar, or of a gas that is taken as a liquid."""
-    leaks = np.array([column.values for column in columns.values() if column.unit == "kg/(m*s)"], dtype=float)
-    points = [
-        (f"{load / 1e6:.4g} MPa", (*outside.get(load, ()), *leakage_outside(seal, float(np.nanmax(own)))))
-        for load, own in zip(np.array(columns["load"].values, dtype=float), leaks.T, strict=True)
-    ]
-    beyond = outside_of_series(points)
-    return [beyond] if beyond else []
 
 
 def _warnings(seal: Seal, body: SealSetup, rows: Mapping[float, Row], thresholds: Mapping[str, Threshold]) -> list[str]:

@@ -12,7 +12,6 @@ from roughfilm.contact.foundation.threads import checked_threads
 from roughfilm.contact.foundation.timing import stopwatch
 from roughfilm.contact.foundation.writing.kinds import PAGE
 from roughfilm.rom.ladder.scene import scene_entries
-from roughfilm.rom.seal.kind import leakage_outside
 from roughfilm.rom.seal.leakage.series import SOUGHT
 from roughfilm.rom.seal.leakage.windows import SealOfWindows, columns_of_windows
 from roughfilm.rom.seal.model import leakage_of
@@ -25,7 +24,7 @@ from roughfilm.terminal.output_file import alone, refuse_unwritable
 from roughfilm.terminal.results import origin, show_result, table_of, written
 from roughfilm.terminal.scenes import requested_loads, seal_of
 from roughfilm.words.average import HEADS, cells_of, count_in_words, in_words
-from roughfilm.words.leakage import WORDS, sealing_in_words
+from roughfilm.words.leakage import WORDS, UnderLoad, range_warnings, sealing_in_words
 from roughfilm.words.numbers import digits, finite_entries, share
 from roughfilm.words.outside import outside_in_words
 from roughfilm.words.scales import Scale, scale_for
@@ -103,7 +102,7 @@ def leakage_of_set(
     scale = scale_for("kg/(m*s)", leak.value)
     words = f"along {seal.flow.direction} at {digits(answer.load * 1e-6)} MPa: {in_words(leak, scale)}"
     sealed = f"; {share(leak.zeros)} of the windows are sealed" if leak.zeros else ""
-    beyond = outside_in_words(leakage_outside(seal, leak.value))
+    beyond = outside_in_words(entries["outside"])
     summary = written("; ".join(filter(None, [beyond, f"{words}{sealed}"])), page, out / "table.csv")
     show_result(entries, shown(), as_json=as_json, reused="rows", summary=summary)
 
@@ -137,17 +136,36 @@ def _entries(seal: Seal, answer: SealOfWindows, columns: dict[str, Column], cell
             "loads": len(answer.loads),
             "rows": len(answer.loads) * answer.count,
         },
-        "outside": list(leakage_outside(seal, leak.value)),
+        "outside": list(_asked(answer).outside(seal)),
         "provenance": origin(SOURCES, [*cells.warnings, *_warnings(seal, answer)], scene=scene_entries(seal)),
     }
     finite: dict[str, Any] = finite_entries(entries)
     return finite
 
 
+def _asked(answer: SealOfWindows) -> UnderLoad:
+    """The seal at its own load, or at the largest one."""
+    return UnderLoad(
+        load=answer.load,
+        area_fraction=answer.answer["area_fraction"].value,
+        peak=answer.peaks[answer.loads.index(answer.load)],
+        leakage=answer.answer["leakage_per_width"].value,
+    )
+
+
 def _warnings(seal: Seal, answer: SealOfWindows) -> list[str]:
-    """Warnings of windows that never seal, and of lifted surfaces."""
-    beyond = outside_in_words(leakage_outside(seal, answer.answer["leakage_per_width"].value))
-    warnings = [beyond] if beyond else []
+    """Warnings of loads out of range, of windows that never seal, and of lifted surfaces."""
+    factor = leakage_of(seal, 1.0)
+    loaded = [
+        UnderLoad(
+            load=load,
+            area_fraction=answer.numbers["area_fraction"][number].value,
+            peak=answer.peaks[number],
+            leakage=factor * max(answer.numbers[name][number].value for name in SOUGHT),
+        )
+        for number, load in enumerate(answer.loads)
+    ]
+    warnings = range_warnings(seal, loaded)
     for name, sealing in answer.sealing.items():
         if sealing.sealing < 1:
             limit = "the hardness" if math.isfinite(seal.hardness) else "E*, the limit of a linear solid"

@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 from window_sets import surface_of_seed, write_set
 
 from roughfilm.cli.main import app
+from roughfilm.contact.surfaces.store import save_surface
 from roughfilm.rom.studies.table import read_table
 
 LOADS = ("--loads", "10kPa,60kPa")
@@ -139,3 +140,21 @@ def test_wrong_options_are_refused_in_one_line(place, monkeypatch, options, mess
     done = run("leakage", "seal.toml", "--out", "wrong", *options)
     assert done.exit_code == 2
     assert message in done.stderr
+
+
+@pytest.mark.parametrize(("steeper", "outside"), [(1, False), (20, False), (40, True)])
+def test_contacts_beyond_linear_elasticity_are_said_as_of_one_surface(place, steeper, outside):
+    """The mean pressure of the contacts is outside the range; a few tips are a warning."""
+    rough = [surface_of_seed(seed) for seed in (1, 2)]
+    surfaces = [one.with_heights(steeper * one.heights) for one in rough]
+    write_set(place / f"steep {steeper}", surfaces)
+    save_surface(surfaces[1], place / f"steep {steeper}.h5")
+    asking = ("leakage", place / "seal.toml", "--loads", "10kPa", "--out")
+    of_set = asked(*asking, place / f"set {steeper}", "--windows", place / f"steep {steeper}")
+    of_one = asked(*asking, place / f"one {steeper}", "--set", f"geometry.surface={place / f'steep {steeper}.h5'}")
+    for found in (of_set, of_one):
+        said = [one for one in found["provenance"]["warnings"] if "0.3 E*" in one]
+        assert len(said) == (steeper > 1)
+        assert all(("mean pressure of the contacts" in one) == outside for one in said)
+        assert bool(found["outside"]) == outside
+    assert of_set["series"][0]["pressure_max"] >= of_one["series"][0]["pressure_max"]
