@@ -38,6 +38,10 @@ FORCES = {
 """The names of the forces on the coordinates but the tilts of pads in lobes."""
 
 
+ENTERING = ("gap", "supply", "inlet")
+"""How the names of flows into the film begin; the others leave it."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Observer:
     """The numbers of every step of a march.
@@ -352,8 +356,7 @@ class Observer:
         rate = film.sides * float((net.storage * filled - net.stored).sum())
         refilled = film.sides * float(outside[instant.kind == FLOODED].sum()) if film.refills else 0.0
         entering = refilled + sum(
-            flow if name.startswith(("gap", "supply", "inlet")) else -flow
-            for name, flow in zip(self._places, flows, strict=True)
+            flow if name.startswith(ENTERING) else -flow for name, flow in zip(self._places, flows, strict=True)
         )
         passing = film.sides * float(np.abs(net.couette * filled).sum(axis=1).max())
         through = film.sides / 2 * float(np.abs(outside).sum())

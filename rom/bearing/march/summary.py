@@ -10,6 +10,7 @@ from roughfilm.contact.foundation.arrays import Array, Mask
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.bearing.march.course import Duty
 from roughfilm.rom.bearing.march.series import Series
+from roughfilm.rom.bearing.march.throughput import throughput
 
 REPEATED = 0.01
 """Largest difference of the last two periods over the clearance, or over the first film, of a settled march."""
@@ -100,8 +101,13 @@ def summary_of(duty: Duty, series: Series) -> Summary:
         place, _, kind = name.rpartition("_")
         if place.startswith(("gap", "supply")):
             means[name] = f"mean {kind} {'in' if kind == 'pressure' else 'of'} {place.replace('_', ' ')}"
+    passed = throughput(series)
     for name, title in means.items():
-        quantities[f"{name}_mean"] = Quantity(value=mean(series, name, first, last), unit=series.units[name])
+        value = mean(series, name, first, last)
+        if name in passed:
+            begun, ended = np.interp([first, last], series.time, passed[name])
+            value = float(ended - begun) / (last - first)
+        quantities[f"{name}_mean"] = Quantity(value=value, unit=series.units[name])
         titles[f"{name}_mean"] = title
     if duty.lobes:
         x, y = series["eccentricity_x"][inside], series["eccentricity_y"][inside]
