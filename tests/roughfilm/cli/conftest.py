@@ -1,19 +1,24 @@
-"""Pages that commands write in a test have empty figures.
+"""Pages that commands write in a test or for a module have empty figures, unless a test asks that they are drawn.
 
-Fixtures that a module shares draw their figures unless they call ``empty_figures`` too, and
 ``tests/roughfilm/pages/test_browser.py`` draws a page of every kind.
 """
+
+from collections.abc import Iterator
 
 import pytest
 from empty_figures import empty_figures
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _empty() -> Iterator[pytest.MonkeyPatch]:
+    with pytest.MonkeyPatch.context() as patch:
+        empty_figures(patch)
+        yield patch
+
+
 @pytest.fixture
-def drawn():
+def drawn(_empty: pytest.MonkeyPatch) -> Iterator[None]:
     """Figures of this test are drawn."""
-
-
-@pytest.fixture(autouse=True)
-def _empty_figures(request, monkeypatch):
-    if "drawn" not in request.fixturenames:
-        empty_figures(monkeypatch)
+    _empty.undo()
+    yield
+    empty_figures(_empty)

@@ -7,7 +7,6 @@ from functools import partial
 
 import numpy as np
 import pytest
-from empty_figures import empty_figures
 from places import SCENES
 from typer.testing import CliRunner
 
@@ -46,7 +45,6 @@ def compared(request, tmp_path_factory):
         inside = tuple(model for model in models() if not model.outside)
         patch.setattr(compare, "models", partial(of_kind, inside))
         patch.setattr(jobs, "REPEATS", 1)
-        empty_figures(patch)
         text = run(*command)
         printed = json.loads(run(*command, "--json").splitlines()[-1])
     return text, printed, (place / "study" / "report.html").read_text(encoding="utf-8")

@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 from click.testing import Result
-from empty_figures import empty_figures
 from places import SCENES
 from typer.testing import CliRunner
 
@@ -28,9 +27,7 @@ def run(scene: str, *arguments: object) -> Result:
 def pad(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
     """The directory of the example, coarse, and what ``--json`` entries."""
     out = tmp_path_factory.mktemp("effects")
-    with pytest.MonkeyPatch.context() as patch:
-        empty_figures(patch)
-        done = run("pad.toml", *COARSE, "--resolution", 32, "--out", out, "--json")
+    done = run("pad.toml", *COARSE, "--resolution", 32, "--out", out, "--json")
     assert done.exit_code == 0, done.stderr
     return out, json.loads(done.stdout)
 

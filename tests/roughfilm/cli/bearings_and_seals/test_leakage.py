@@ -31,6 +31,11 @@ def asked(*arguments):
     return json.loads(done.stdout)
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _empty():
+    """The figures of the series are drawn."""
+
+
 @pytest.fixture(scope="module")
 def place(tmp_path_factory):
     folder = tmp_path_factory.mktemp("seal")

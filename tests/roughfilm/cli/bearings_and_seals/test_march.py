@@ -17,6 +17,11 @@ def run(*words):
     return CliRunner().invoke(app, [str(word) for word in words])
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _empty():
+    """The figures of a march are drawn, which no other test does."""
+
+
 @pytest.fixture(scope="module")
 def marched(tmp_path_factory):
     out = tmp_path_factory.mktemp("march") / "out"
