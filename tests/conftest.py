@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
-from places import MEASURED, SAMPLES, SCENES
+from places import MEASURED, ROOT, SAMPLES, SCENES
 
 from roughfilm.foamcases.openfoam.installation import availability
 from roughfilm.rom.ladder.kind import Scene
@@ -15,11 +15,22 @@ from roughfilm.rom.ladder.scene import load_scene
 
 POCKET = SCENES / "pocket.toml"
 
-LONG_FILE = "test_transcripts.py"
-"""Would be among the last files, with nothing left for the other process; its tests come first.
+LONG_FILES = (
+    "roughfilm/batch/test_cluster.py",
+    "roughfilm/batch/test_batch.py",
+    "roughfilm/generated/test_generated.py",
+    "attack/test_attack.py",
+    "test_transcripts.py",
+    "rom/ladder/test_properties.py",
+    "roughfilm/stability/test_thermal.py",
+    "roughfilm/cli/first_steps/test_compare.py",
+    "roughfilm/pages/test_browser.py",
+    "attack/test_damaged_files.py",
+)
+"""The files that take 20 s of CPU time and more, which come first: a process has little left to do beside the last one.
 
-Its commands compile nearly all kernels (50 s of CPU time where none is kept yet), so that processes beside it find them
-compiled: of 165 kernels less than 0.3 s is spent twice, and compiling them before the tests would save nothing.
+The first of them start programs and wait for them, while types are checked and the manual is built. The pages that
+``test_transcripts`` runs need nearly all kernels; most of these are compiled by then, where the manual is built.
 """
 
 for name in ("FORCE_COLOR", "NO_COLOR", "PY_COLORS", "GITHUB_ACTIONS", "TTY_COMPATIBLE", "TTY_INTERACTIVE", "LINES"):
@@ -32,7 +43,8 @@ settings.load_profile("fixed")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    items.sort(key=lambda item: item.path.name != LONG_FILE)
+    order = {ROOT / "tests" / name: place for place, name in enumerate(LONG_FILES)}
+    items.sort(key=lambda item: order.get(item.path, len(order)))
     if any(item.get_closest_marker("openfoam") for item in items) and not availability().available:
         reason = f"OpenFOAM is not here: {availability().detail}"
         for item in items:
