@@ -1,6 +1,5 @@
 """The workers of a dask cluster: what they can run, jobs for them, and an end of the batch where all are gone."""
 
-import asyncio
 import logging
 import platform
 import ssl
@@ -197,6 +196,8 @@ def dask(address: str, *, wait: float, tls: Path | None = None) -> Iterator[Clus
     UnavailableError
         If dask is not installed or the scheduler does not answer.
     """
+    import asyncio  # with ssl, slower to import than all of this package that a batch here needs beside the models
+
     try:
         import distributed
     except ImportError:
