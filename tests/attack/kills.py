@@ -44,6 +44,9 @@ IMPORTS_S = 1.5
 SLOW_IN = 4
 """A slow command has one series where the others have this many."""
 
+SIGNALS, WEIGHTS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT), (6, 2, 2)
+"""Signals that stop a command, and how often each is sent."""
+
 SHOWN = 6
 """Differences that are shown of two answers."""
 
@@ -86,8 +89,7 @@ class Attack:
             left = set(self._scratch(place))
             if stop.number != signal.SIGKILL and ended.stopped:
                 findings += [Finding(kind="scratch", seen=one) for one in sorted(left - known)]
-                if ended.code not in (128 + stop.number, usual.ended.code, -stop.number):
-                    findings.append(Finding(kind="answer", seen=f"exit code {ended.code} after signal {stop.number}"))
+                findings += _judged_stop(name, ended, stop, usual.ended)
             known = left
             findings += _incomplete(place.work)
             held = _finished(place.work)
@@ -164,7 +166,7 @@ class Attack:
 
 def random_stop(chance: random.Random, usual: Ended) -> Stop:
     """A random moment of a command, and a signal, mostly SIGKILL."""
-    number = chance.choices([signal.SIGKILL, signal.SIGTERM, signal.SIGINT], [8, 1, 1])[0]
+    number = chance.choices(SIGNALS, WEIGHTS)[0]
     way = chance.randrange(10)
     if way == 0:
         return Stop(number=number, after_s=IMPORTS_S + chance.uniform(0.0, 1.0) * usual.seconds, fresh=True)
@@ -204,6 +206,18 @@ def points(count: int, seed: int, commands: Sequence[str] = ()) -> Iterator[Poin
             shutil.rmtree(path)
     with suppress(OSError):
         folder.rmdir()  # the directories of series with faults stay
+
+
+def _judged_stop(name: str, ended: Ended, stop: Stop, usual: Ended) -> list[Finding]:
+    """What is wrong with the end of a command that was asked to stop: its exit code, and its line on what is left."""
+    after = f"after signal {stop.number}"
+    early = stop.fresh and ended.code == -stop.number  # the interpreter still starts
+    if ended.code not in (128 + stop.number, usual.code) and not early:
+        return [Finding(kind="answer", seen=f"exit code {ended.code} {after}: {ended.errors[-500:]}")]
+    lines = [line for line in ended.errors.splitlines() if "stopped" in line]
+    if ended.code == 128 + stop.number and len(lines) != 1 and not COMMANDS[name].words[0].endswith(".py"):
+        return [Finding(kind="answer", seen=f"{len(lines)} lines {after}: {ended.errors[-500:]}")]
+    return []
 
 
 def _incomplete(work: Path) -> list[Finding]:

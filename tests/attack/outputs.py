@@ -32,7 +32,7 @@ AS_BYTES = frozenset({".toml", ".msh", ".stl", ".vtu", ".npy"})
 TIME = re.compile(r"\d[\d.e+-]* (?:CPU )?(?:ms|s|min|h)\b")
 """Times in sentences, which differ as the costs do."""
 
-ROUNDING = 1e-9
+ROUNDING = 0.0
 """Relative difference of two numbers that is no difference."""
 
 HIDDEN = re.compile(r"(^|/)\.|\.lock$")

@@ -16,7 +16,7 @@ from roughfilm.rom.bearing.dynamics.transfer_errors import transfer_errors
 from roughfilm.rom.bearing.dynamics.wall_errors import wall_errors
 from roughfilm.rom.bearing.equilibrium.overload import refuse_overload
 from roughfilm.rom.bearing.free.solve import placed
-from roughfilm.rom.bearing.geometry.journal import Journal
+from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.march.rough_walls import Walls, walls_of
@@ -126,7 +126,7 @@ def dynamics(
         If no film converges under a load.
     """
     scene = free_bearing(scene)
-    ordered = _checked(speeds, pressures, resolution, frequency_ratio, mass)
+    ordered = _checked(scene, speeds, pressures, resolution, frequency_ratio, mass)
     done = {(point.pressure, point.speed): point for point in known}
     walls, curves = walls_of(scene), []
     for number, pressure in enumerate(sorted(pressures)):
@@ -304,6 +304,7 @@ def _excess(point: DynamicPoint, mass: float) -> float:
 
 
 def _checked(
+    scene: Bearing,
     speeds: Sequence[float],
     pressures: Sequence[float],
     resolution: int,
@@ -325,6 +326,10 @@ def _checked(
         raise InputError(f"frequency_ratio: got {frequency_ratio!r}; it must be {low:g} to {high:g}")
     if mass is not None and not 0 < mass < math.inf:
         raise InputError(f"mass: got {mass!r} kg; it must be a finite number above 0")
+    if mass is not None and not isinstance(scene.geometry, Shaft):
+        raise InputError(
+            f"mass: got {mass:g} kg for a pad, which does not whirl; leave it out, or give a scene with a shaft"
+        )
     return sorted(speeds)
 
 
@@ -359,5 +364,5 @@ def free_bearing(scene: Bearing) -> Bearing:
 
 
 def mass_of(scene: Bearing) -> float | None:
-    """The mass of the rotor in the bearing, kg; None if the scene has none."""
-    return None if scene.body is None else scene.body.mass
+    """The mass of the rotor in the bearing, kg; None if the scene has none, or has a pad, which does not whirl."""
+    return scene.body.mass if scene.body is not None and isinstance(scene.geometry, Shaft) else None

@@ -87,6 +87,11 @@ class SeparableBearing(Protocol[FilmT]):
         ...
 
     @property
+    def cells(self) -> int:
+        """The number of cells along a side."""
+        ...
+
+    @property
     def closest(self) -> float:
         """The smallest separation that can be solved, m."""
         ...
@@ -360,7 +365,8 @@ def _load_too_high(at: FilmsAtSpeed[FilmT], pressure: float, largest: float) -> 
         )
     return InputError(
         f"load: got {pressure:.6g} Pa over the nominal area; at {at.speed:.4g} m/s film and walls carry at most "
-        f"{largest / at.film.area:.6g} Pa, at a minimum film thickness of {place:.4g} m; {at.film.remedy}"
+        f"{largest / at.film.area:.6g} Pa on {at.film.cells} cells along a side, at a minimum film thickness of "
+        f"{place:.4g} m; {at.film.remedy}"
     )
 
 

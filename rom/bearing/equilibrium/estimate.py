@@ -2,10 +2,11 @@
 
 import math
 from contextlib import nullcontext
+from functools import partial
 from typing import Any
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
-from roughfilm.rom.bearing.equilibrium.balance import FilmsAtSpeed, robustly_balanced
+from roughfilm.rom.bearing.equilibrium.balance import ROUNDING, FilmsAtSpeed, balanced, robustly_balanced
 from roughfilm.rom.bearing.equilibrium.expected import MIN_FILM_OVER_PEAK, closest_film, first_film
 from roughfilm.rom.bearing.equilibrium.films import ModelFilms
 from roughfilm.rom.bearing.film import averaged_film
@@ -20,7 +21,11 @@ CELLS = {True: (64, 256), False: (24, 96)}
 """Numbers of cells along a side, for an infinitely wide film (True) and for others; the second if the first fails."""
 
 CLEARLY = 2.0
-"""Load over the largest that films on the first grid carry, or the smallest over it, above which it is refused."""
+"""Smallest load of films on the first grid over the wanted one above which it is refused there.
+
+Above the same ratio of the wanted load to the largest one the second grid is asked at the film of the largest alone,
+which a coarse grid does not resolve at the end of a wedge that is a ten-thousandth of its rise thick.
+"""
 
 LOAD_TOLERANCE = 1e-4
 """Relative error of the load at which the search stops."""
@@ -47,6 +52,7 @@ def estimate(scene: Bearing) -> tuple[float, float]:
     elif roughness is not None and scene.asperities is not None:
         touching = CONTACT_FILM * roughness.rms
     failure: InputError | ConvergenceError | None = None
+    place: float | None = None
     for cells in CELLS[scene.wide]:
         films = ModelFilms(
             scene=scene,
@@ -57,17 +63,22 @@ def estimate(scene: Bearing) -> tuple[float, float]:
             touching=max(first_film(scene, closest), MIN_FILM_OVER_PEAK * closest),
         )
         at = FilmsAtSpeed(film=films, speed=scene.motion.speed)
+        search = robustly_balanced if place is None else partial(balanced, guess=place)
         try:
             with nullcontext() if failure is None else few_rounds():
-                film = robustly_balanced(at, pressure, tolerance=LOAD_TOLERANCE).scene.geometry.thinnest
+                film = search(at, pressure, tolerance=LOAD_TOLERANCE).scene.geometry.thinnest
         except (InputError, ConvergenceError) as error:
             if touching > 0:
                 return touching, at.steepness
-            failure = error
-            load, carried = pressure * films.area, at.loads.values()
-            near = not carried or min(carried) / CLEARLY <= load <= CLEARLY * max(carried)
-            if isinstance(error, InputError) and not near:
-                break
+            if place is None or isinstance(error, InputError):
+                failure = error
+            load, carried = pressure * films.area, at.loads
+            if isinstance(error, InputError) and carried:
+                place = max(carried, key=lambda film: carried[film])
+                if load < min(carried.values()) / CLEARLY or carried[place] <= ROUNDING * load:
+                    break
+                if load <= CLEARLY * carried[place]:
+                    place = None
         else:
             return max(film, touching), steepness_of(at, film)
     assert failure is not None

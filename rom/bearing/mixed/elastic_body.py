@@ -139,7 +139,7 @@ class ElasticBodies:
         self.film, self.modulus, self.accuracy = film, composite_modulus, accuracy
         geometry = film.scene.geometry
         sides = np.array([geometry.length, geometry.width])
-        self.count = 2 * film.cells
+        self.cells, self.count = film.cells, 2 * film.cells
         self.spacing = sides / self.count
         self.x, self.y = ((np.arange(self.count) + 0.5) * step for step in self.spacing)
         self.half_space = HalfSpace((2 * self.count, 2 * self.count), (self.spacing[0], self.spacing[1]), "free")

@@ -108,6 +108,17 @@ def test_the_mass_is_that_of_the_body_of_the_scene_and_has_no_part_in_the_points
     assert point_inputs(heavy, CELLS, 1.0).digest == point_inputs(scene(), CELLS, 1.0).digest
 
 
+def test_a_pad_with_a_mass_has_stiffness_and_damping_and_no_onset_of_whirl():
+    pad = scene({"shape": "pivoted", "length": "50 mm", "width": "50 mm", "pivot": 0.58}, speed="5 m/s")
+    heavy = pad.model_copy(update={"body": Body(mass="40 kg")})
+    assert mass_of(heavy) is None
+    (found,) = dynamics(heavy, [5.0], [PRESSURE], resolution=32, mass=mass_of(heavy))
+    assert found.onset is None
+    assert found.points[0].numbers["stiffness"] > 0
+    with pytest.raises(InputError, match="mass: got 40 kg for a pad, which does not whirl"):
+        dynamics(heavy, [5.0], [PRESSURE], resolution=32, mass=40.0)
+
+
 def test_a_point_is_the_same_to_the_last_bit_after_other_points_and_alone():
     """A sweep that was stopped goes on to the numbers that it would have found at once."""
     grooved = scene()
