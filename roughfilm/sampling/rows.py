@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import logging
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from functools import cache
@@ -78,17 +79,18 @@ def store_row(row: Row, identity: str, directory: Path) -> None:
 
 
 def stored_row(identity: str, directory: Path) -> Row | None:
-    """The row of a window from its file; None if there is none, or the file is damaged or edited."""
+    """The row of a window from its file; None if there is none, or, with a warning, if it is damaged or edited."""
     path = row_path(directory, identity)
     if not path.is_file():
         return None
     try:
         text = read_bytes(path, MAX_BYTES, "start again")
         entries = from_json(text, RowEntries)
+        given = json.loads(text)
+        if entries.row_of != identity or given.pop("digest", "") != _digest(given):
+            raise ValueError("the digest is another one")
     except (ValueError, InputError):
-        return None
-    given = json.loads(text)
-    if entries.row_of != identity or given.pop("digest", "") != _digest(given):
+        logging.getLogger(__name__).warning("%s: was damaged or changed; its window is computed again", path)
         return None
     return Row(
         quantities={

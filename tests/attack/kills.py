@@ -87,7 +87,7 @@ class Attack:
             ended = self._run(name, place, usual.limit_s, stop)
             findings = self._judged_end(ended, usual.limit_s)
             left = set(self._scratch(place))
-            if stop.number != signal.SIGKILL and ended.stopped:
+            if ended.stopped and ended.code != -stop.number:  # it was not ended at once, as by SIGKILL
                 findings += [Finding(kind="scratch", seen=one) for one in sorted(left - known)]
                 findings += _judged_stop(name, ended, stop, usual.ended)
             known = left
@@ -211,11 +211,10 @@ def points(count: int, seed: int, commands: Sequence[str] = ()) -> Iterator[Poin
 def _judged_stop(name: str, ended: Ended, stop: Stop, usual: Ended) -> list[Finding]:
     """What is wrong with the end of a command that was asked to stop: its exit code, and its line on what is left."""
     after = f"after signal {stop.number}"
-    early = stop.fresh and ended.code == -stop.number  # the interpreter still starts
-    if ended.code not in (128 + stop.number, usual.code) and not early:
+    if ended.code not in (128 + stop.number, usual.code):
         return [Finding(kind="answer", seen=f"exit code {ended.code} {after}: {ended.errors[-500:]}")]
     lines = [line for line in ended.errors.splitlines() if "stopped" in line]
-    if ended.code == 128 + stop.number and len(lines) != 1 and not COMMANDS[name].words[0].endswith(".py"):
+    if ended.code != usual.code and len(lines) != 1 and not COMMANDS[name].words[0].endswith(".py"):
         return [Finding(kind="answer", seen=f"{len(lines)} lines {after}: {ended.errors[-500:]}")]
     return []
 

@@ -11,6 +11,7 @@ import os
 import re
 import secrets
 import shutil
+import signal
 import tempfile
 import zlib
 from collections.abc import Iterator
@@ -28,6 +29,9 @@ HOST = f"{zlib.crc32(os.uname().nodename.encode()):08x}"
 
 LOCKS = re.compile(rf"\.?roughfilm-{HOST}-[0-9a-f]{{8}}\.lock")
 """Names of the lock files of this machine."""
+
+STOPS = frozenset({signal.SIGINT, signal.SIGTERM})
+"""Signals that ask a process to stop."""
 
 
 @contextmanager
@@ -87,15 +91,30 @@ def _made(parent: Path, before: str) -> Iterator[Path]:
     """
     _sweep_once(parent)
     owner = os.getpid()
-    lock, descriptor = _locked(parent, before)
-    place = lock.with_suffix("")
+    held: tuple[Path, int] | None = None
     try:
-        place.mkdir(mode=0o700)
+        with _stops_held():
+            held = lock, _ = _locked(parent, before)
+            place = lock.with_suffix("")
+            place.mkdir(mode=0o700)
         yield place
     finally:
-        if os.getpid() == owner:
-            _remove(place, lock)
-        os.close(descriptor)
+        if held is not None:
+            with _stops_held():
+                lock, descriptor = held
+                if os.getpid() == owner:
+                    _remove(lock.with_suffix(""), lock)
+                os.close(descriptor)
+
+
+@contextmanager
+def _stops_held() -> Iterator[None]:
+    """Hold signals to stop, whose exceptions would part a lock file from its directory, until the end of the block."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, STOPS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def sweep(directory: Path) -> None:

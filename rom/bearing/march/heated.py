@@ -55,6 +55,11 @@ class HeatedMarch:
         """The lubricant over temperature."""
         return self.duty.scene.lubricant.liquid
 
+    @property
+    def coldest(self) -> float:
+        """The lowest temperature of what takes the heat of the film away, K."""
+        return coldest(self.duty.scene, self.liquid.temperature)
+
     def film(self, film: MovingFilm, temperature: float) -> MovingFilm:
         """The film whose lubricant has the viscosity at a temperature, K."""
         return film.with_viscosity(self.duty.scene.lubricant.at(temperature).viscosity)
@@ -153,8 +158,7 @@ class HeatedMarch:
         if self.time_constant:
             equilibrium(given)
         else:
-            lowest = coldest(self.duty.scene, supplied)
-            balanced(equilibrium, given, coldest=lowest, tolerance=FIRST_TOLERANCE)
+            balanced(equilibrium, given, coldest=self.coldest, tolerance=FIRST_TOLERANCE)
         return last[0]
 
 

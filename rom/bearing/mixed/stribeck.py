@@ -220,7 +220,6 @@ def stribeck(
     search = with_temperature(curve_search(scene, asperities, ordered, pressures, resolution, tolerance))
     touches = scene.asperities is not None
     done = {(point.pressure, point.speed): point for point in known}
-    coarse = search.coarser()
     estimated = {ordered[i] for i in np.linspace(0, len(ordered) - 1, UNCERTAINTY_SPEEDS).round().astype(int)}
     estimated |= {speed for speed in ordered if isclose(speed, abs(scene.motion.speed), rel_tol=SAME_SPEED)}
     curves: dict[float, list[StribeckPoint]] = {pressure: [] for pressure in sorted(pressures)}
@@ -230,10 +229,10 @@ def stribeck(
             words = f"{speed:.4g} m/s, {pressure * 1e-6:.4g} MPa"
             progress((number + count / len(curves)) / len(ordered), words)
             point = before = done.get((pressure, speed))
-            cpu = working_time()
+            cpu, here = working_time(), search.anew()  # a resumed curve has the points of one that was not stopped
             if point is None:
                 try:
-                    state = search.solved(speed, pressure, [(one.speed, one.separation) for one in points])
+                    state = here.solved(speed, pressure, [(one.speed, one.separation) for one in points])
                 except (InputError, ConvergenceError) as error:
                     if touches:
                         raise
@@ -241,9 +240,9 @@ def stribeck(
                         refuse_overload(partial(_solved, search, pressure), ordered)
                     refused[pressure] = error
                     continue
-                point = _with_flash(stribeck_point(state, search, pressure), state.scene)
+                point = _with_flash(stribeck_point(state, here, pressure), state.scene)
             if speed in estimated and not point.uncertainty:
-                point = replace(point, uncertainty=_uncertainty(point, search, coarse))
+                point = replace(point, uncertainty=_uncertainty(point, here))
             if point is not before:
                 point = replace(point, cpu_s=point.cpu_s + working_time() - cpu)
                 keep(point)
@@ -256,7 +255,7 @@ def stribeck(
             finished.append(StribeckCurve(pressure=pressure, points=tuple(points), lift_off=NEVER_TOUCHING))
             continue
         progress(1.0, f"lift-off at {pressure * 1e-6:.4g} MPa")
-        lift_off = _lift_off(search, coarse, points)
+        lift_off = _lift_off(search, points)
         finished.append(StribeckCurve(pressure=pressure, points=tuple(points), lift_off=lift_off))
     return tuple(finished)
 
@@ -309,12 +308,13 @@ def curve_search(
     )
 
 
-def _uncertainty(point: StribeckPoint, search: Search, coarse: Search) -> dict[str, float]:
+def _uncertainty(point: StribeckPoint, search: Search) -> dict[str, float]:
     """The uncertainty of a point from a grid with half as many cells; empty if that grid does not carry the load.
 
     Where a heat transfer is estimated, the point is sought on that grid with both ends of its range too. It is empty if
     one of them has no film.
     """
+    coarse = search.coarser()
     try:
         near = coarse.solved(point.speed, point.pressure, [(point.speed, point.separation)])
     except (InputError, ConvergenceError):
@@ -339,9 +339,10 @@ def _uncertainty(point: StribeckPoint, search: Search, coarse: Search) -> dict[s
     }
 
 
-def _lift_off(search: Search, coarse: Search, points: Sequence[StribeckPoint]) -> LiftOff:
+def _lift_off(search: Search, points: Sequence[StribeckPoint]) -> LiftOff:
     """The lift-off speed under the load of some points, with its uncertainty as that of a point."""
     pressure, near = points[0].pressure, _lift_off_guess(points, search)
+    search, coarse = search.anew(), search.coarser()
     speed, coarse_speed = (one.lift_off(pressure, near) for one in (search, coarse))
     error = abs(speed - coarse_speed) + search.asperities.factor_uncertainty(search.asperities.touching) * speed
     if isinstance(coarse, HeatedSearch) and any(point.estimated_heat_transfer for point in points):

@@ -339,7 +339,8 @@ def _attempt(
     if course.warming is None:
         return _stepped(film, course, moving, size, driven, order=order, tolerance=tolerance, longest=longest)
     near, warming = moving.past[:2], course.warming
-    temperature = expected(tuple(one.time for one in near), tuple(one.temperature for one in near), time)
+    times, temperatures = tuple(one.time for one in near), tuple(one.temperature for one in near)
+    temperature = expected(times, temperatures, time, warming.coldest)
     for _ in range(MAX_WARMINGS):
         stepped = _stepped(
             warming.film(film, temperature),

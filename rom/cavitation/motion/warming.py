@@ -16,6 +16,11 @@ class Warming(Protocol):
         """The time constant τ, s; 0 for a film whose temperature is T_eq at all times."""
         ...
 
+    @property
+    def coldest(self) -> float:
+        """The lowest temperature of what takes the heat of the film away, K, below which no film cools."""
+        ...
+
     def film(self, film: MovingFilm, temperature: float) -> MovingFilm:
         """The film whose liquid has the viscosity at a temperature, K."""
         ...
@@ -40,12 +45,15 @@ class Warming(Protocol):
         ...
 
 
-def expected(times: tuple[float, ...], temperatures: tuple[float, ...], time: float) -> float:
-    """The temperature at a time, K, from those at one or two times before, the latest first: linear, or constant."""
+def expected(times: tuple[float, ...], temperatures: tuple[float, ...], time: float, coldest: float) -> float:
+    """The temperature at a time, K, from those at one or two times before, the latest first: linear, or constant.
+
+    It is not below the lowest that a film can have or had: without a time constant temperatures jump from step to step.
+    """
     if len(times) < 2:
         return temperatures[0]
     slope = (temperatures[0] - temperatures[1]) / (times[0] - times[1])
-    return temperatures[0] + slope * (time - times[0])
+    return max(temperatures[0] + slope * (time - times[0]), min(coldest, *temperatures))
 
 
 def following(warming: Warming, balanced: float, temperature: float, rate: float, memory: float) -> float:

@@ -3,6 +3,7 @@
 import errno
 import fcntl
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -45,6 +46,21 @@ def killed(directory, *, host=scratch.HOST):
     left.mkdir()
     (left / "field").write_text("half")
     return lock
+
+
+@pytest.mark.parametrize("call", ["flock", "samestat", "rmdir"], ids=["locking", "made", "removing"])
+def test_a_signal_to_stop_that_comes_while_it_is_made_or_removed_leaves_nothing(temporary, monkeypatch, call):
+    module = fcntl if call == "flock" else os.path if call == "samestat" else os
+    own = getattr(module, call)
+
+    def stopped(*arguments, **options):
+        os.kill(os.getpid(), signal.SIGINT)
+        return own(*arguments, **options)
+
+    monkeypatch.setattr(module, call, stopped)
+    with pytest.raises(KeyboardInterrupt), scratch_directory():
+        pass
+    assert list(temporary.iterdir()) == []
 
 
 def test_it_is_empty_and_removed_at_the_end_whatever_happens(temporary):

@@ -126,12 +126,16 @@ def test_a_stopped_run_goes_on_where_it_was(plan, place, tmp_path):
         assert [row.quantities for row in first] == [row.quantities for row in second]
 
 
-def test_rows_of_another_scene_and_damaged_ones_are_computed_again(plan, place, tmp_path):
+def test_rows_of_another_scene_and_damaged_ones_are_computed_again(plan, place, tmp_path, caplog):
     asked = asked_of(place / "contact.toml", place / "cell.h5")
     rows_of(plan, asked, tmp_path)
     assert rows_of(plan, asked, tmp_path).found == 10
     next(row_path(tmp_path, "x").parent.iterdir()).write_text('{\n "row_of": "')
     assert rows_of(plan, asked, tmp_path).found == 9
+    edited = next(row_path(tmp_path, "x").parent.iterdir())
+    edited.write_text(edited.read_text().replace("0.", "1."))
+    assert rows_of(plan, asked, tmp_path).found == 9
+    assert [record.getMessage() for record in caplog.records][-1].startswith(f"{edited}: was damaged or changed; its ")
     scene = rf.load_scene(place / "contact.toml", set={"load.pressure": "20 kPa"})
     assert rows_of(plan, asked_of(scene, place / "cell.h5"), tmp_path).found == 0
     assert len(list((tmp_path / "rows").iterdir())) == 10

@@ -129,6 +129,10 @@ class HeatedSearch:
         """The films of another scene with the same walls."""
         return replace(self, isothermal=self.isothermal.of(scene), _known={}, _last={})
 
+    def anew(self) -> Self:
+        """The films of which none was solved before."""
+        return replace(self, isothermal=self.isothermal.anew(), _known={}, _last={})
+
     def coarser(self) -> Self:
         """The films on a grid of half as many cells."""
         return replace(self, isothermal=self.isothermal.coarser(), _known=dict(self._known), _last={})

@@ -124,3 +124,7 @@ class PlaceSearch:
     def of(self, scene: Bearing) -> Self:
         """The films of a scene with another lubricant, whose search starts from those that were solved before."""
         return replace(self, scene=scene)
+
+    def anew(self) -> Self:
+        """The films of which none was solved before."""
+        return replace(self, _near={})

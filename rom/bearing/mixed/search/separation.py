@@ -89,6 +89,10 @@ class Search(Protocol):
         """The films of a scene with another lubricant, whose search starts from those that were solved before."""
         ...
 
+    def anew(self) -> Self:
+        """The films of which none was solved before."""
+        ...
+
 
 @dataclass(kw_only=True)
 class SeparationSearch:
@@ -190,3 +194,7 @@ class SeparationSearch:
     def of(self, scene: Bearing) -> Self:
         """The films of a scene with another lubricant, whose search starts from those that were solved before."""
         return type(self)(film=replace(self.film, scene=scene), _states=self._states)
+
+    def anew(self) -> Self:
+        """The films of which none was solved before."""
+        return type(self)(film=self.film)

@@ -35,7 +35,7 @@ SLOW = {"time_constant": f"{TAU} s"}
 
 
 def scene_of(geometry, *, oil=(), speed="5 m/s", **tables):
-    tables = {"lubricant": OIL | dict(oil), "motion": {"speed": speed}} | tables
+    tables = {"lubricant": dict(oil) if "oil" in dict(oil) else OIL | dict(oil), "motion": {"speed": speed}} | tables
     return read_scene({"name": "heated", "kind": "bearing", "geometry": geometry, **tables})
 
 
@@ -131,6 +131,20 @@ def test_a_given_film_warms_as_its_equation_says():
     ]
     assert errors[-1] < 2e-3 * warmed
     assert math.log(errors[0] / errors[1], 4) > 1.7
+
+
+def test_a_film_that_cools_in_one_step_is_not_expected_below_what_cools_it():
+    """The loaded film at rest is 280 K above the supply, the moving one 60 K: a line through both falls below 0 K."""
+    march = marched(
+        BORE | {"radius": "15 mm", "width": "30 mm"},
+        end=None,
+        steps=4,
+        oil={"oil": "ISO VG 460", "temperature": "60 degC", "cavitation_pressure": "-0.1 MPa"},
+        speed="30 m/s",
+        load={"pressure": "40 MPa"},
+    )
+    assert march["temperature"][0] > 2 * march["temperature"][1]
+    assert march["temperature"].min() > 60
 
 
 @pytest.mark.parametrize("heat", [SLOW, {"carried_over": 0.7}], ids=["walls", "at once"])
