@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.course import STEPS_PER_TABLE, Duty, course_of, film_at
@@ -149,7 +149,11 @@ def _equilibria(duty: Duty, film: FreeFilm, time: Array) -> list[tuple[FreeFilm,
         placed = at_speed(film, duty.speed(float(at)))
         start = carried_over(*found[-1], placed) if found else None
         load = duty.load(float(at))[: film.wall.place.size]
-        found.append((placed, equilibrium(placed, start, tolerance=RESIDUAL, load=load)))
+        try:
+            found.append((placed, equilibrium(placed, start, tolerance=RESIDUAL, load=load)))
+        except InputError as error:
+            speed = duty.sliding_speed(float(at))
+            raise InputError(f"motion.over_time: at {at:.4g} s, with {speed:.4g} m/s, {error}") from None
     return found
 
 

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from roughfilm.contact.foundation.errors import InputError
 from roughfilm.ladder import models
 from roughfilm.rom.advice.advise import advise, wanted
 from roughfilm.rom.bearing.kind import KIND
@@ -53,6 +54,14 @@ def test_slower_loads_have_a_smaller_squeeze_number_and_change():
     slow, fast = (quasi_static(Duty(scene=bearing(period)), cells=CELLS, times=32) for period in (1.0, 0.1))
     assert fast.squeeze_number == pytest.approx(10 * slow.squeeze_number, rel=1e-3)
     assert abs(fast.change) > 4 * abs(slow.change)
+
+
+def test_a_time_at_rest_is_named_where_no_film_carries_the_load():
+    over_time = {"time": ["0 s", "10 ms"], "period": "20 ms", "speed": ["0 m/s", "5 m/s"]}
+    still = bearing(0.02, motion={"speed": "5 m/s", "over_time": over_time}, load={"force": "5 kN"})
+    with pytest.raises(InputError, match="motion.over_time: at 0 s, with 0 m/s, load: got 5000 N") as caught:
+        wanted(still, None)
+    assert "\n" not in str(caught.value)
 
 
 def test_a_heavy_body_adds_its_inertia():
