@@ -59,7 +59,7 @@ def test_slower_loads_have_a_smaller_squeeze_number_and_change():
 def test_a_time_at_rest_is_named_where_no_film_carries_the_load():
     over_time = {"time": ["0 s", "10 ms"], "period": "20 ms", "speed": ["0 m/s", "5 m/s"]}
     still = bearing(0.02, motion={"speed": "5 m/s", "over_time": over_time}, load={"force": "5 kN"})
-    with pytest.raises(InputError, match="motion.over_time: at 0 s, with 0 m/s, load: got 5000 N") as caught:
+    with pytest.raises(InputError, match=r"motion\.over_time: at 0 s, with 0 m/s, load: got 5000 N") as caught:
         wanted(still, None)
     assert "\n" not in str(caught.value)
 
