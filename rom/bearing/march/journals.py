@@ -23,6 +23,9 @@ RESIDUAL = 1e-11
 ALIGNED, MAX_TURNS = 1e-8, 20
 """Angle, rad, between the eccentricity and the middle of the bore at which the search ends, and its largest number."""
 
+MOST_TURN = 1.0
+"""Largest turn of the inlet in a step, rad: where a supply outweighs the load, the eccentricity turns with it."""
+
 
 def opened(scene: Bearing, first: float = DOWN) -> Bearing:
     """The scene of a journal with the coordinates of a shaft, whose inlet lies opposite to an angle, rad.
@@ -92,7 +95,7 @@ def _aligned(scene: Bearing, cells: tuple[int, int], load: Array, first: float) 
         if abs(away) <= ALIGNED:
             return first
         step = away * (first - last) / (apart - away) if number and apart != away else away
-        last, apart, first = first, away, first + step
+        last, apart, first = first, away, first + max(-MOST_TURN, min(step, MOST_TURN))
     raise ConvergenceError("boundary.inlet: the place of the inlet opposite to the eccentricity does not converge")
 
 

@@ -7,6 +7,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
+from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.course import Duty, course_of, film_at, started
 from roughfilm.rom.bearing.march.heated import HeatedMarch
@@ -207,7 +208,9 @@ def _chunks(
         return done
 
     try:
-        for last in steps:
+        for moved in steps:
+            _refuse_touching(observer, moved)
+            last = moved
             rows.append(_row(observer, warming, last))
             if left and last.now.time >= left[0] * (1 - 1e-12):
                 snapshots.append(Snapshot(time=last.now.time, fields=observer.fields(last)))
@@ -222,6 +225,17 @@ def _chunks(
         raise
     if rows:
         yield chunk()
+
+
+def _refuse_touching(observer: Observer, moving: Moving) -> None:
+    """Raise ConvergenceError if walls without contact meet between the nodes of the grid."""
+    if observer.film.solved.contact is None and observer.least(moving.instant.faces.thickness)[0] <= 0:
+        raise ConvergenceError(
+            f"motion: at the time {moving.now.time:.6g} s the walls touch between the nodes of the grid; lower the "
+            "load, raise the viscosity or the speed, or take more cells",
+            outcome=Outcome.STALLED,
+            iterations=moving.instant.iterations,
+        )
 
 
 def _row(observer: Observer, warming: HeatedMarch | None, moving: Moving) -> Array:

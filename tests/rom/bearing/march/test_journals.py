@@ -72,6 +72,20 @@ def test_a_march_from_anywhere_ends_in_the_steady_journal(tables):
     assert np.abs(march["flow_imbalance"]).max() < 1e-9
 
 
+def test_a_journal_whose_supply_outweighs_its_load_has_its_inlet_opposite_to_the_load():
+    """Its eccentricity turns with the inlet, to which no angle of the inlet is opposite."""
+    pocket = {"kind": "pocket", "angle": "-60 deg", "pressure": "2 bar", "length": "3 mm", "extent": "3 mm"} | {
+        "depth": "1 mm"
+    }
+    small = JOURNAL | {"radius": "5 mm", "width": "30 mm"}
+    oil = {"viscosity": "0.1 Pa*s", "cavitation_pressure": "-0.1 MPa"}
+    fed = scene(small, lubricant=oil, motion={"speed": "1 m/s"}, load={"pressure": "2 kPa"}, supply=[pocket])
+    march = marched(fed, steps=4, end=1e-3)
+    assert march.quantities["inlet_angle"].value == pytest.approx(90)
+    assert 0 < march["film_min"].min() < march["film_min"].max() <= 40e-6 * (1 + 1e-9)
+    assert np.abs(march["flow_imbalance"]).max() < 1e-9
+
+
 def test_a_load_that_changes_moves_the_shaft_but_not_the_inlet_and_turns_with_the_bearing():
     moved = []
     for turned in (0.0, 50.0):

@@ -44,6 +44,22 @@ def test_a_pad_whose_moments_no_tilt_balances_closes_and_its_pivot_is_named():
         marched(PAD | {"pivot": 0.35}, load={"force": "500 N"}, body=start)
 
 
+def test_walls_that_meet_between_the_nodes_of_the_grid_end_the_march():
+    """A shaft at rest for half of each period sinks through its film; the nodes of the grid keep a film for longer."""
+    over_time = {"time": ["0 s", "0.25 s", "0.5 s", "0.75 s"], "period": "1 s"}
+    over_time["speed"] = ["0 m/s", "0 m/s", "0.05 m/s", "0.9 m/s"]
+    tables = {
+        "geometry": {"shape": "lobes", "radius": "40 mm", "clearance": "17 um", "width": "80 mm"},
+        "lubricant": {"viscosity": "20 mPa*s", "cavitation_pressure": "-50 kPa"},
+        "motion": {"speed": "1 m/s", "over_time": over_time},
+        "load": {"pressure": "7 MPa"},
+        "body": {"mass": "1 kg"},
+    }
+    shaft = read_scene({"name": "at rest", "kind": "bearing"} | tables)
+    with pytest.raises(ConvergenceError, match="the walls touch"):
+        march_bearing(shaft, steps=4, cells=(16, 8), uncertain=False)
+
+
 WEDGE = {"shape": "linear", "length": "20 mm", "width": "20 mm", "film": "20 um", "rise": "100 um"}
 
 
