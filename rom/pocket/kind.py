@@ -248,6 +248,7 @@ KIND = Kind(
     outside_laws=outside_laws,
     outside=outside,
     variants={LAWS_IN_PLAN: in_plan},
+    samples={"deep_dimples": frozenset(), "plane_grooves": frozenset()},
     replaces={
         "motion.speed": ("reynolds_number",),
         "motion.reynolds_number": ("speed",),

@@ -3,8 +3,10 @@
 The models that run in this process are judged by their own equations on finer grids (``finer.py``).
 """
 
+from dataclasses import replace
+
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
-from roughfilm.ladder import find
+from roughfilm.ladder import find, models
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.pocket.scene import Pocket
@@ -19,20 +21,31 @@ FINEST = 2
 
 
 def truth(scene: Pocket) -> Truth:
-    """Return the quantities of a cell by Navier-Stokes flow, with the uncertainty of their extrapolation.
+    """Return the quantities of a cell by Navier-Stokes flow, and the models' own equations on finer grids.
+
+    Raises
+    ------
+    ConvergenceError
+        If :func:`whole` raises it, or no model solves the scene on two finer grids.
+    """
+    return replace(whole(scene), own=finer_truth(scene).own)
+
+
+def whole(scene: Pocket) -> Truth:
+    """Return the quantities of a cell by Navier-Stokes flow, by which no model's own equations are judged.
 
     Raises
     ------
     ConvergenceError
         If OpenFOAM is not on this machine, or the flow does not converge on two grids.
     """
-    own, runs = finer_truth(scene).own, runs_of(scene)
+    runs = runs_of(scene)
     found = {name: converged(runs, name) for name in runs[-1].quantities}
     return Truth(
         values={name: value for name, (value, _) in found.items()},
         uncertainty={name: uncertainty for name, (_, uncertainty) in found.items()},
         method=f"{REFERENCE} on {', '.join(str(run.numerics.resolution) for run in runs)} columns, extrapolated",
-        own=own,
+        own={model.name: {} for model in models(scene.kind)},
         warnings=runs[-1].warnings,
         by=REFERENCE,
         runs={run.numerics.resolution: {name: one.value for name, one in run.quantities.items()} for run in runs},

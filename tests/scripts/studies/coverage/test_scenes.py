@@ -32,7 +32,18 @@ def test_bearings_have_every_shape_texture_and_feed(bearings):
 
 @pytest.mark.parametrize(
     "kind",
-    ["bearing", "free_bearing", "placed_bearing", "heated_bearing", "dry_contact", "seal", "rough_gap", "dimples"],
+    [
+        "bearing",
+        "free_bearing",
+        "placed_bearing",
+        "heated_bearing",
+        "dry_contact",
+        "seal",
+        "rough_gap",
+        "dimples",
+        "deep_dimples",
+        "plane_grooves",
+    ],
 )
 def test_a_seed_is_one_scene(kind):
     first, again, other = (scene_entries(drawn(kind, seed)) for seed in (20003, 20003, 20004))
@@ -93,3 +104,19 @@ def test_cells_in_plan_have_every_shape_and_arrangement():
     assert min(cell.reynolds_number for cell in cells) == 1e-3
     assert max(cell.reynolds_number for cell in cells) > 100
     assert max(cell.slope for cell in cells) <= 1 + 1e-9
+
+
+def test_deep_dimples_are_about_as_deep_as_the_film_and_have_inertia():
+    cells = [drawn("deep_dimples", seed) for seed in range(20000, 20040)]
+    assert {kind_of_scene(one).name_of_laws for one in cells} == {"dimples"}
+    assert {one.shape for cell in cells for one in cell.geometry.dimples} == set(DIMPLES)
+    assert all(0.25 <= cell.depth <= 1 and cell.reynolds_number >= 5 for cell in cells)
+    assert {cell.reynolds_number > 40 for cell in cells} == {cell.slope > 0.3 for cell in cells} == {True, False}
+
+
+def test_plane_grooves_are_on_and_off_the_middle():
+    cells = [drawn("plane_grooves", seed) for seed in range(20000, 20040)]
+    assert {kind_of_scene(one).name_of_laws for one in cells} == {"dimples"}
+    assert {one.shape for cell in cells for one in cell.geometry.dimples} == {"groove"}
+    assert all(0.25 <= cell.depth <= 1 and cell.reynolds_number >= 5 and cell.slope <= 1 for cell in cells)
+    assert {cell.geometry.dimples[0].position == 0 for cell in cells} == {True, False}
