@@ -27,7 +27,7 @@ LONG_FILES = (
     "roughfilm/pages/test_browser.py",
     "attack/test_damaged_files.py",
 )
-"""The files that take 20 s of CPU time and more, which come first: a process has little left to do beside the last one.
+"""The files that take longest (14 s of CPU time and more), which come first: nothing long is left beside the last one.
 
 The first of them start programs and wait for them, while types are checked and the manual is built. The pages that
 ``test_transcripts`` runs need nearly all kernels; most of these are compiled by then, where the manual is built.

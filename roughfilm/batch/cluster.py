@@ -196,7 +196,7 @@ def dask(address: str, *, wait: float, tls: Path | None = None) -> Iterator[Clus
     UnavailableError
         If dask is not installed or the scheduler does not answer.
     """
-    import asyncio  # with ssl, slower to import than all of this package that a batch here needs beside the models
+    import asyncio  # slow to import, with ssl
 
     try:
         import distributed
