@@ -14,7 +14,7 @@ from roughfilm.contact.foundation.units import to_si
 from roughfilm.contact.foundation.writing.kinds import as_input
 from roughfilm.contact.surfaces.files import read_measurement
 from roughfilm.contact.surfaces.periodicity import not_periodic
-from roughfilm.contact.surfaces.plausibility import implausible, repeated_extreme
+from roughfilm.contact.surfaces.plausibility import implausible, preparation_doubts, repeated_extreme
 from roughfilm.contact.surfaces.profile import Profile
 from roughfilm.contact.surfaces.store import is_surface
 from roughfilm.contact.surfaces.surface import Surface
@@ -104,6 +104,7 @@ def read_height_map(
         warnings=(
             *implausible(surface, file),
             *repeated_extreme(surface, file),
+            *preparation_doubts(surface, file),
             *(
                 periodicity_warnings(file, surface, otherwise, measured=not described and suffix != ".npy")
                 if periodic

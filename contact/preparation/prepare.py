@@ -9,6 +9,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Mask
 from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.preparation.change import Change, change, smoothing_warnings
 from roughfilm.contact.preparation.edges.join import join_edges
 from roughfilm.contact.preparation.edges.joined import Joined, seam_pixels
 from roughfilm.contact.preparation.filling import fill_invalid
@@ -129,6 +130,7 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
         measured = trusted = _scale_limited(trusted, recipe)
         _refuse_constant(trusted, surface)
     filled, residual = fill_invalid(trusted)
+    doubts = (*removal_warnings(unfiltered, spikes), *_clipping_warnings(cut, surface.heights.size))
     record = {
         "invalid": {
             "points": int(surface.invalid.sum()),
@@ -136,7 +138,12 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
             "fraction": invalid,
             "residual": residual,
         },
-        "outliers": {"spikes": int(spikes.spikes.sum()), "rims": int(spikes.rims.sum()), **asdict(cut)},
+        "outliers": {
+            "spikes": int(spikes.spikes.sum()),
+            "rims": int(spikes.rims.sum()),
+            **asdict(cut),
+            "doubts": list(doubts),
+        },
         "filled": {"points": int(trusted.invalid.sum()), "fraction": float(trusted.invalid.mean())},
         "scale": {"form": recipe.form, "s_filter": recipe.s_filter, "l_filter": recipe.l_filter},
     }
@@ -150,8 +157,7 @@ def level(surface: Surface, recipe: Recipe) -> Levelled:
             *repeated_extreme(surface),
             *implausible(trusted),
             *nesting_warnings(surface, recipe.s_filter, recipe.l_filter),
-            *removal_warnings(unfiltered, spikes),
-            *_clipping_warnings(cut, surface.heights.size),
+            *doubts,
         ),
     )
 
@@ -169,6 +175,7 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
     if window is None:
         window = _window(filled, recipe.window, guessed)
     cut_window(filled, window)  # refuses a window that is not inside the surface
+    asked = window
     in_window = float(guessed[window.slices].mean())
     if in_window > MAX_INVALID_FRACTION:
         raise InputError(f"window: {100 * in_window:.0f} % of its points are invalid; choose another window")
@@ -189,7 +196,9 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
         "grid": {"points": list(cell.shape), "spacing": list(cell.spacing)},
         "edges": edges,
         "periodicity_mismatch": {"before": periodicity_mismatch(cell), "after": mismatch},
+        "change": asdict(_change(levelled, recipe, asked, window, joint, smoothed)),
     }
+    warnings = (*_cell_warnings(record), *smoothing_warnings(joint.surface, smoothed, recipe.smoothing))
     source = {"prepared_from": dict(surface.source), "recipe": recipe_entries(recipe), "record": record}
     return Prepared(
         measured=levelled.measured,
@@ -199,8 +208,23 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
         joint=joint,
         surface=smoothed.with_heights(smoothed.heights, source=source),
         record=record,
-        warnings=(*levelled.warnings, *_cell_warnings(record)),
+        warnings=(*levelled.warnings, *warnings),
     )
+
+
+def _change(
+    levelled: Levelled, recipe: Recipe, asked: Window, window: Window, joint: Joined, smoothed: Surface
+) -> Change:
+    """The change of the window that was asked for to the cell, which may cover a smaller one."""
+    guessed = levelled.trusted.invalid
+    kept = float((~guessed[window.slices]).sum()) / math.prod(asked.shape)
+    measured = Surface(
+        heights=levelled.measured.heights[asked.slices],
+        spacing=levelled.measured.spacing,
+        invalid=guessed[asked.slices],
+        periodic=levelled.original.periodic and asked.shape == guessed.shape,
+    )
+    return change(measured, smoothed, kept=kept * (1 - joint.mean_weight), form=recipe.form)
 
 
 def _without_form(surface: Surface, recipe: Recipe) -> tuple[Surface, Spikes]:

@@ -88,6 +88,13 @@ def repeated_extreme(surface: Surface, name: str | Path = "") -> tuple[str, ...]
     return tuple(found)
 
 
+def preparation_doubts(surface: Surface, name: str | Path = "") -> tuple[str, ...]:
+    """The warnings of a prepared surface that what was removed from it may have been its texture or its summits."""
+    place = f"{name}: " if name else ""
+    doubts = surface.source.get("record", {}).get("outliers", {}).get("doubts", [])
+    return tuple(f"{place}when it was prepared, {doubt}" for doubt in doubts)
+
+
 def _sentences(surface: Surface) -> tuple[str, ...]:
     if _synthetic(surface):
         return ()

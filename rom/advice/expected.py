@@ -46,7 +46,7 @@ def with_errors(
     errors = {name: error for name, error in expected.items() if name in result.quantities}
     stated = {} if result.outside else known or {}
     errors |= {name: error for name, error in stated.items() if math.isfinite(error.error)}
-    errors = _with_ratios(kind, result, errors)
+    errors = _with_ratios(kind, result, _with_input(kind, scene, errors))
     before = error_warnings(kind, model.name, stated_errors(result))
     spent = [result.numerics.one_time, claimed_costs()]
     costs = {name: sum(one.get(name, 0.0) for one in spent) for name in dict.fromkeys(chain(*spent))}
@@ -111,6 +111,19 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
             stated = replace(stated, error=max(stated.error, own or 0.0))
             errors |= {quantity: stated} if math.isfinite(stated.error) else {}
     return errors
+
+
+def _with_input(kind: Kind, scene: Scene, errors: Mapping[str, StatedError]) -> dict[str, StatedError]:
+    """The errors with those by the input, which add; an error measured against another model has the same input."""
+    found = dict(errors)
+    for name, error in errors.items():
+        own = kind.of_input(scene, name) if error.difference is None else None
+        if own is not None and math.isfinite(own.part):
+            source = own.source if own.part > error.error else error.source
+            found[name] = StatedError(error=error.error + own.part, source=source)
+        elif own is not None:
+            del found[name]
+    return found
 
 
 def _with_ratios(kind: Kind, result: Result, errors: Mapping[str, StatedError]) -> dict[str, StatedError]:

@@ -1,4 +1,4 @@
-"""The scatter between windows, which no model of a scene includes, as a sentence beside the advice."""
+"""The scatter between windows and the error of the input, which no model includes, as sentences beside the advice."""
 
 import math
 
@@ -27,3 +27,9 @@ def window_note(scene: Scene, within: float) -> str:
         f"the surface is one window: Sq of another one of its size differs {amount}, contact area about as much and "
         "leakage several times as much, which no error here includes; run roughfilm windows"
     )
+
+
+def input_note(scene: Scene, quantity: str, within: float) -> str:
+    """The sentence on the error of the input in a quantity; empty if it is at most the tolerance ``within``."""
+    own = kind_of_scene(scene).of_input(scene, quantity)
+    return "" if own is None or own.part <= within else f"{own.reason}, which no error here includes"

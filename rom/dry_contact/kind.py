@@ -13,6 +13,7 @@ from roughfilm.rom.ladder.kind import Kind
 from roughfilm.rom.ladder.model import Effect, Model
 from roughfilm.rom.ladder.result import Result
 from roughfilm.rom.ladder.sweeping import Columns, Powers, Sweeping
+from roughfilm.rom.parts.prepared import error_of_preparation
 from roughfilm.rom.parts.pressed_surface import RoughContact
 from roughfilm.rom.parts.surface_geometry import replaced_by
 
@@ -126,6 +127,8 @@ KIND = Kind(
     scale=scale,
     columns=columns,
     numbers=numbers,
+    samples={"small_surface": frozenset()},
+    of_input=error_of_preparation,
     outside=outside,
     symbols=NUMBERS,
     excluded="friction, adhesion and hardening",

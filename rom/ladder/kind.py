@@ -71,6 +71,11 @@ def within_range(_scene: Any, _model: Any, _result: Result | None) -> tuple[str,
     return ()
 
 
+def nothing_of_input(_scene: Any, _quantity: str) -> None:
+    """Return nothing, for kinds whose inputs have no error of their own."""
+    return
+
+
 def nothing_bounded(_scene: Any, _model: Any) -> frozenset[str]:
     """Return no quantities, for kinds none of whose results bounds the error of its model."""
     return frozenset()
@@ -190,6 +195,8 @@ class Kind:
     in_time : in_time(scene, within), what a motion in time means for a tolerance; None for a scene that is steady.
     omitted : omitted(scene, model, quantity), the size of an effect that a model leaves out and that the error laws do
         not count, such as one that no model of the kind includes; None if it is zero or unknown.
+    of_input : of_input(scene, quantity), the error by what was done to the input before, such as the preparation of a
+        measured surface: it adds to the stated error of every model, and the choice of a model does not depend on it.
     missing : missing(scene, model), the relative size of the effects that a model leaves out in a scene, where no model
         keeps them all: the best model for the scene misses least.
     bounded : bounded(scene, model), the quantities whose error by the model its results bound themselves: as the detail
@@ -231,6 +238,7 @@ class Kind:
     in_time: Callable[[Any, float], InTime | None] = unchanging
     absent: Callable[[Any], frozenset[str]] = nothing_absent
     omitted: Callable[[Any, Any, str], Omission | None] = nothing_omitted
+    of_input: Callable[[Any, str], Omission | None] = nothing_of_input
     missing: Callable[[Any, Any], float] = nothing_missing
     bounded: Callable[[Any, Any], frozenset[str]] = nothing_bounded
     outside_laws: Callable[[Any, Any, str], str] = within_laws

@@ -16,7 +16,7 @@ from roughfilm.contact.foundation.timing import one_time
 from roughfilm.contact.foundation.units import with_unit
 from roughfilm.contact.mechanics.moments import WavePower, wave_power
 from roughfilm.contact.surfaces.files import has_header, read_surface
-from roughfilm.contact.surfaces.plausibility import implausible
+from roughfilm.contact.surfaces.plausibility import implausible, preparation_doubts
 from roughfilm.contact.surfaces.store import is_surface
 from roughfilm.contact.surfaces.surface import Surface
 
@@ -124,7 +124,7 @@ class SurfaceGeometry(Part):
         return _read(str(path), self.spacing, path.stat().st_mtime_ns, size)
 
     def warnings(self) -> tuple[str, ...]:
-        """The warnings that a unit of the file may be wrong, cached; none for a described surface."""
+        """The warnings on a unit and on the preparation of the file, cached; none for a described surface."""
         if self.described:
             return ()
         return _unit_warnings(self.model_dump_json(include={"surface", "spacing", "digest"}, exclude_none=True))
@@ -176,7 +176,8 @@ def _read(path: str, spacing: tuple[float, float] | None, _modified: int, _size:
 @lru_cache(maxsize=2)
 def _unit_warnings(geometry: str) -> tuple[str, ...]:
     scene = SurfaceGeometry.model_validate_json(geometry)
-    return implausible(scene.read(), scene.name)
+    surface = scene.read()
+    return *implausible(surface, scene.name), *preparation_doubts(surface, scene.name)
 
 
 @lru_cache(maxsize=2)

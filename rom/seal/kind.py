@@ -79,6 +79,7 @@ KIND = Kind(
     compared={"leakage_per_width": "leakage", "area_fraction": "contact area"},
     others={"mean_gap": "mean gap", "permeability": "permeability"},
     remarks=remarks,
+    of_input=dry_contact.KIND.of_input,
     outside=outside,
     reported={
         "leakage": "leakage, whole seal",

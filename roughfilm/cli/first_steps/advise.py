@@ -13,7 +13,7 @@ from roughfilm.rom.advice.advise import DEFAULT_TOLERANCE, Advice, ModelVerdict,
 from roughfilm.rom.advice.estimates import Estimate
 from roughfilm.rom.advice.laws import table as laws_table
 from roughfilm.rom.advice.stated import BY_LAWS, entries_of_errors, percent
-from roughfilm.rom.advice.window import window_note
+from roughfilm.rom.advice.window import input_note, window_note
 from roughfilm.rom.ladder.kind import Scene, kind_of_scene
 from roughfilm.rom.ladder.scene import load_scene
 from roughfilm.terminal.console import (
@@ -56,9 +56,10 @@ def command(
         advice = advise(read, models(read.kind), quantity=compared, within=fraction, progress=advance)
     judged = kind_of_scene(read).steady(read)
     if as_json:
-        note, in_time = window_note(read, fraction), {} if advice.in_time is None else advice.in_time.entries
+        notes = {"window": window_note(read, fraction), "input": input_note(judged, advice.quantity, fraction)}
+        in_time = {} if advice.in_time is None else advice.in_time.entries
         lines = list(kind_of_scene(judged).composed(judged))
-        print_json({**entries_of(advice), "composition": lines, "window": note, **in_time})
+        print_json({**entries_of(advice), "composition": lines, **notes, **in_time})
     else:
         print_all(_shown(judged, advice))
     if advice.chosen is None:
@@ -102,8 +103,8 @@ def _shown(scene: Scene, advice: Advice) -> Iterator[Table | str]:
     for reason in dict.fromkeys(omission.reason for omission in measured):
         names = [name for name, omission in advice.omitted.items() if omission.reason == reason]
         yield f"{'all of them' if len(names) == len(applying) else ', '.join(names)}: {reason}"
-    if note := window_note(scene, advice.within):
-        yield note
+    notes = input_note(scene, advice.quantity, advice.within), window_note(scene, advice.within)
+    yield from filter(None, notes)
     numbers = [f"{kind.symbols[name]} = {value:.3g}" for name, value in advice.numbers.items() if name in kind.symbols]
     if numbers:
         yield f"numbers of the scene: {', '.join(numbers)}"

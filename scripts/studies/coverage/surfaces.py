@@ -2,7 +2,7 @@
 
 import hashlib
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -64,11 +64,11 @@ def stored(values: Array) -> Path:
     return _kept(values.tobytes(), ".npy", lambda path: np.save(path, values))
 
 
-def in_file(heights: Array, spacing: tuple[float, float]) -> Entries:
-    """Return the geometry of a scene with these periodic heights and their spacing, m, in a file."""
-    surface = Surface(heights=heights, spacing=spacing, periodic=True)
-    path = _kept(heights.tobytes() + repr(spacing).encode(), ".h5", lambda path: save_surface(surface, path))
-    return {"surface": str(path)}
+def in_file(heights: Array, spacing: tuple[float, float], source: Mapping[str, Any] | None = None) -> Entries:
+    """Return the geometry of a scene with these periodic heights, their spacing, m, and their origin, in a file."""
+    surface = Surface(heights=heights, spacing=spacing, periodic=True, source=source or {})
+    content = heights.tobytes() + repr((spacing, source) if source else spacing).encode()
+    return {"surface": str(_kept(content, ".h5", lambda path: save_surface(surface, path)))}
 
 
 def _kept(content: bytes, suffix: str, write: Callable[[Path], None]) -> Path:

@@ -43,6 +43,7 @@ def test_bearings_have_every_shape_texture_and_feed(bearings):
         "dimples",
         "deep_dimples",
         "plane_grooves",
+        "small_surface",
     ],
 )
 def test_a_seed_is_one_scene(kind):
@@ -120,3 +121,13 @@ def test_plane_grooves_are_on_and_off_the_middle():
     assert {one.shape for cell in cells for one in cell.geometry.dimples} == {"groove"}
     assert all(0.25 <= cell.depth <= 1 and cell.reynolds_number >= 5 and cell.slope <= 1 for cell in cells)
     assert {cell.geometry.dimples[0].position == 0 for cell in cells} == {True, False}
+
+
+def test_small_surfaces_are_periods_or_parts_with_and_without_holes():
+    maps = [drawn("small_surface", seed).surface().source for seed in range(20000, 20040)]
+    assert {one["prepared_from"]["whole"] for one in maps} == {True, False}
+    points = [count for one in maps for count in one["prepared_from"]["points"]]
+    assert 16 <= min(points) < 20 < 50 < max(points) <= 64
+    filled = [one["record"]["invalid"]["fraction"] for one in maps]
+    assert min(filled) == 0
+    assert max(filled) > 0.5
