@@ -13,7 +13,7 @@ from pydantic_core import core_schema
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.ranges import RANGES
-from roughfilm.contact.foundation.units import ZERO_CELSIUS, SiNumber, to_si, with_unit
+from roughfilm.contact.foundation.units import ZERO_CELSIUS, SiNumber, converted, to_si, with_unit
 
 REMEDY = "make a changed scene with rf.replace, such as rf.replace(scene, 'geometry.depth', '7.5 um')"
 
@@ -61,6 +61,11 @@ def plain_number(value: object) -> float:
     return number
 
 
+def rounded_number(value: object) -> float:
+    """The dimensionless number as :func:`plain_number` gives it; one below the range is a rounding error, and zero."""
+    return 0.0 if abs(si_number(value)) < RANGES["1"].least else plain_number(value)
+
+
 def si_number(value: object) -> float:
     """The number as a float, which may be infinite or not a number; ValueError for anything else."""
     if isinstance(value, str) and value.rstrip().endswith("%"):
@@ -89,10 +94,12 @@ class InUnit:
     ----------
     base : SI unit, such as "m".
     any_sign : whether zero and negative numbers are accepted; by default only positive ones are.
+    rounds : whether a number below the range is a rounding error of a computed one, and zero.
     """
 
     base: str
     any_sign: bool = False
+    rounds: bool = False
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         return core_schema.no_info_before_validator_function(
@@ -102,7 +109,8 @@ class InUnit:
         )
 
     def _number(self, text: object) -> float:
-        number = to_si(text, self.base)
+        small = self.rounds and abs(converted(text, self.base)) < RANGES[self.base].least
+        number = 0.0 if small else to_si(text, self.base)
         if number <= 0 and not self.any_sign:
             zero = f"absolute zero, {-ZERO_CELSIUS} degC" if self.base == "K" else "zero"
             got = f"{text:.6g} {self.base}" if isinstance(text, SiNumber) else f"{text!r:.60}"

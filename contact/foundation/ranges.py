@@ -56,6 +56,7 @@ _ENGINEERING: Mapping[str, tuple[float, float]] = {
     "rad/s": (1e-6, 1e6),
     "N": (1e-9, 1e9),
     "N/m": (1e-9, 1e9),
+    "N*m": (1e-12, 1e12),
     "W": (1e-12, 1e9),
     "s": (1e-9, 1e10),
     "K": (1e-3, 1e5),

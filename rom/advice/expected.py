@@ -166,14 +166,19 @@ def error_warnings(kind: Kind, model: str, errors: Mapping[str, StatedError]) ->
 def error_lines(kind: Kind, result: Result) -> list[str]:
     """The errors of a result for people, one text for each source, such as "load 1 %, friction 2 % (<source>)".
 
-    A compared quantity without an error is "unknown".
+    A compared quantity without an error is "unknown". Of a result with temperatures, a quantity that has the error of
+    another one is named with it.
     """
     errors = {name: one for name, one in stated_errors(result).items() if name in result.quantities}
+    heated = any(one.unit == "degC" for one in result.quantities.values())
+    own = {kind.named[name] for name in errors.keys() & kind.named.keys()}
     by_source: dict[str, list[str]] = {}
     for name, title in kind.named.items():
         if name in errors:
             rise = " of its rise" if result.quantities[name].unit == "degC" else ""
-            by_source.setdefault(errors[name].source, []).append(f"{title} {errors[name].amount}{rise}")
+            alike = [kind.alike[name]] if heated and name in kind.alike and kind.alike[name] not in own else []
+            titles = " and ".join([title, *alike])
+            by_source.setdefault(errors[name].source, []).append(f"{titles} {errors[name].amount}{rise}")
     unknown = [title for name, title in kind.titles.items() if name in _expected(kind, result) - errors.keys()]
     texts = [f"{', '.join(parts)} ({source})" for source, parts in by_source.items()]
     return texts + ([f"{', '.join(unknown)} unknown"] if unknown else [])

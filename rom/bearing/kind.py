@@ -361,6 +361,7 @@ KIND = Kind(
     },
     reported=REPORTED,
     remarks=remarks,
+    alike={"friction_per_width": "power loss"},
     ratios={"friction_coefficient": ("friction_per_width", "load_per_width")},
     scale=scale,
     origin=origin,

@@ -177,6 +177,7 @@ class Kind:
     samples : by the name of a further set of random scenes by which its models are judged, beside those of the kind,
         the models whose laws of the resolution are fitted to them.
     ratios : quantities that are the ratio of two others, with the names of these; their errors follow from those.
+    alike : title of a reported quantity, such as a power, that has the relative error of a compared one, by its name.
     origin : origin(entries, quantity), the value from which the size of a quantity is measured, such as the temperature
         of the supplied lubricant of a temperature; 0 by default.
     scale : scale(values, quantity), the size by which an error in a compared quantity is divided. ``values`` are the
@@ -231,6 +232,7 @@ class Kind:
     variants: Mapping[str, Callable[[Mapping[str, Any]], bool]] = field(default_factory=dict)
     samples: Mapping[str, frozenset[str]] = field(default_factory=dict)
     ratios: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    alike: Mapping[str, str] = field(default_factory=dict)
     window: Callable[[Any], Surface | None] = no_surface
     composed: Callable[[Any], Sequence[str]] = nothing_composed
     steady: Callable[[Any], Any] = as_given

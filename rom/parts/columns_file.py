@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from roughfilm.contact.foundation.entries import plain_number, si_number
+from roughfilm.contact.foundation.entries import rounded_number, si_number
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.ranges import RANGES
 from roughfilm.contact.foundation.reading.npy import read_header, read_numbers
@@ -90,7 +90,7 @@ def _number(cell: str, unit: str, base: str) -> float:
         turning = rotational_speed(f"{cell} {unit}") if base == "rad/s" else None
         return _cell(f"{cell} {unit}", base) if turning is None else turning
     try:
-        return plain_number(float(cell))
+        return rounded_number(float(cell))
     except ValueError:
         raise ValueError(f"got {cell!r:.40}; write a plain number") from None
 

@@ -60,13 +60,26 @@ NEAR_PEAK = 0.02
 """Difference from the largest temperature at the points over the range below which a node may have the largest one."""
 
 LEAST_RANGE = 0.01
-"""Range of the temperature, K, below which changes are over this range."""
+"""Range of the temperature, K, below which changes and residuals are those over this range."""
 
 WITHOUT_OUTLET = 0.5
 """Residual over the heat flows from which on most of the power of a film finds no way out of it."""
 
 ROUND_OFF = 2048 * float(np.finfo(float).eps)
 """Round-off of the residuals over the heat that the rise of the temperature would conduct across the film."""
+
+ROUND_OFF_OF_OUTLET = 128 * float(np.finfo(float).eps)
+"""The same over that heat times its ratio to all heat flows.
+
+A film that conducts much more heat than walls and lubricant take out of it is at the temperature at which the small
+heat that leaves, a difference of large ones, is right.
+"""
+
+STUCK = 8
+"""Number of renewals without a fall of the residual by half after which it counts as one that no longer falls."""
+
+LARGEST_ROUND_OFF = 1e-6
+"""Largest round-off of the residuals over the heat flows at which the heat of a film counts as balanced."""
 
 LARGEST_RISE = 1000.0
 """Largest difference from the temperature of the supply, K, before the iteration ends."""
@@ -307,7 +320,7 @@ def _solved(
     known: Equations | None = None
     memory = AndersonAcceleration(remembered=REMEMBERED)
     fall, limit = FALL, RENEWALS if most is None else most
-    contraction = np.inf if before is None else before.contraction
+    contraction, stuck, best = np.inf if before is None else before.contraction, 0, np.inf
     low, high = extremes(heat)
     extent = max(high - low, LEAST_RANGE * _capacity(film.liquid))
     while True:
@@ -327,8 +340,9 @@ def _solved(
         near = linearised(film.liquid, heat, near.near(supply, heat))
         if change <= tolerance or renewed == limit:
             checked = audited(system, film.nodes, film.parts, heat, near.rise(heat), film.walls)
-            residual, rounded = _residual(film, checked)
-            least, fall = max(RESIDUAL_TOLERANCE, rounded), LAST_FALL
+            residual, least, stuck_at = _residual(film, checked, extent / (high - low) if high > low else 1.0)
+            stuck, best, fall = 0 if residual < best / 2 else stuck + 1, min(best, residual), LAST_FALL
+            least = stuck_at if stuck >= STUCK else least
             if residual <= least or renewed == limit:
                 break
         if point is not None:
@@ -454,12 +468,22 @@ def _respond(film: _Film, system: Equations, response: Array) -> float:
     return slope
 
 
-def _residual(film: _Film, checked: Audit) -> tuple[float, float]:
-    """The sum of the sizes of the residuals over the power and the heat flows in, and its round-off."""
-    wrong, rounded, scale = checked.residuals, ROUND_OFF * checked.conducted, checked.scale
+def _residual(film: _Film, checked: Audit, wider: float) -> tuple[float, float, float]:
+    """The sum of the sizes of the residuals over the power and the heat flows in, and what is allowed of it.
+
+    The second limit is that of residuals that no longer fall: their round-off, or in a film whose temperature varies by
+    less than ``LEAST_RANGE``, which is ``wider`` by a factor, that of a film that varies by it.
+    """
+    wrong, scale = checked.residuals, checked.scale
     if film.turning:
         wrong += abs(float((film.nodes.area * checked.into_sliding).sum()))
-    return (wrong / scale, rounded / scale) if scale > 0 else (wrong, rounded)
+    if not scale > 0:
+        least = max(RESIDUAL_TOLERANCE, ROUND_OFF * checked.conducted)
+        return wrong, least, least
+    conducted = checked.conducted / scale
+    least = max(RESIDUAL_TOLERANCE, ROUND_OFF * conducted)
+    rounded = max(ROUND_OFF_OF_OUTLET * conducted**2, RESIDUAL_TOLERANCE * wider)
+    return wrong / scale, least, max(least, min(rounded, LARGEST_ROUND_OFF))
 
 
 def _result(

@@ -54,6 +54,7 @@ def write_page(analysis: EffectAnalysis, entries: Mapping[str, Any], out: Path) 
         views=shown,
         treated=analysis.treated,
         left_out=analysis.left_out,
+        not_switched=analysis.not_switched,
         numbers=[
             (name.replace("_", " "), kind.symbols[name], f"{value:.3g}")
             for name, value in kind.numbers(analysis.scene).items()

@@ -1,7 +1,6 @@
 """The common form of every stability map: probes of a solver, their judged answers, and the map that holds them."""
 
 import math
-import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -13,6 +12,7 @@ from rich.table import Table
 
 from roughfilm.batch.jobs import Failure
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, UnavailableError
+from roughfilm.contact.foundation.timing import working_time
 from roughfilm.rom.ladder.provenance import code, commit, machine, versions
 from roughfilm.rom.studies.table import Column
 from roughfilm.terminal import results
@@ -143,7 +143,7 @@ class Probe:
         the outcome is wrong.
         """
         place: dict[str, Any] = {"group": self.group, "row": self.row, "column": self.column}
-        cpu = time.process_time()
+        cpu = working_time()
         try:
             answer = self.ask()
         except Exception as error:  # every exception becomes a spot of the map
@@ -158,10 +158,10 @@ class Probe:
                 outcome=outcome,
                 why="" if ours else "fault",
                 iterations=getattr(error, "iterations", None),
-                cpu_s=time.process_time() - cpu,
+                cpu_s=working_time() - cpu,
                 message=str(error) if ours else f"{type(error).__name__}: {error}",
             )
-        cpu_s = time.process_time() - cpu
+        cpu_s = working_time() - cpu
         if self.refused:
             return Spot(**place, outcome=MapOutcome.WRONG, cpu_s=cpu_s, message="an answer, where none exists")
         judged = self.judge(answer)

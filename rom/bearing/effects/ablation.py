@@ -122,23 +122,33 @@ class SceneEffect:
     name : name of the effect.
     present : present(scene), whether the scene has the effect.
     without : without(variant), the variant without the effect.
+    kept : kept(scene), why an effect of the scene is not switched off, although it has it; "" if it is, or if the scene
+        does not have the effect.
     """
 
     name: str
     present: Callable[[Bearing], bool]
     without: Callable[[Variant], Variant]
+    kept: Callable[[Bearing], str] = lambda _scene: ""
 
 
 def _has_texture(scene: Bearing) -> bool:
     return without_texture(scene) is not scene
 
 
-def _has_side_flow(scene: Bearing) -> bool:
-    if scene.wide or scene.supply:
-        return False
+def _side_flow_kept(scene: Bearing) -> str:
+    """Why the sides of a film stay open: without them nothing determines its pressure, or nothing leaves it."""
+    if scene.wide:
+        return ""
     geometry = scene.geometry
+    if scene.supply:
+        return "what is supplied inside of the film leaves through its sides"
     joined = (isinstance(geometry, Ring) and geometry.endless) or (isinstance(geometry, Lobes) and geometry.joined)
-    return not joined
+    return "lubricant enters and leaves the film through its sides alone" if joined else ""
+
+
+def _has_side_flow(scene: Bearing) -> bool:
+    return not scene.wide and not _side_flow_kept(scene)
 
 
 def _depends_on_pressure(scene: Bearing) -> bool:
@@ -162,7 +172,12 @@ def _heats(scene: Bearing) -> bool:
 
 
 EFFECTS: tuple[SceneEffect, ...] = (
-    SceneEffect(name="side flow", present=_has_side_flow, without=lambda one: replace(one, sides=False)),
+    SceneEffect(
+        name="side flow",
+        present=_has_side_flow,
+        without=lambda one: replace(one, sides=False),
+        kept=_side_flow_kept,
+    ),
     SceneEffect(
         name="texture", present=_has_texture, without=lambda one: replace(one, scene=without_texture(one.scene))
     ),
@@ -191,7 +206,12 @@ EFFECTS: tuple[SceneEffect, ...] = (
         present=lambda scene: scene.lubricant.shear_thinning is not None,
         without=lambda one: replace(one, scene=_newtonian(one.scene)),
     ),
-    SceneEffect(name="heating", present=_heats, without=lambda one: replace(one, scene=one.scene.isothermal())),
+    SceneEffect(
+        name="heating",
+        present=_heats,
+        without=lambda one: replace(one, scene=one.scene.isothermal()),
+        kept=lambda scene: "".join(scene.lubricant.left_out_heat),
+    ),
 )
 """All effects in the order in which they are switched on.
 

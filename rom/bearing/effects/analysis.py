@@ -73,7 +73,12 @@ class EffectAnalysis:
     def left_out(self) -> list[str]:
         """Names of the effects that the scene does not have."""
         present = effects_of(self.scene)
-        return [effect.name for effect in EFFECTS if effect not in present]
+        return [effect.name for effect in EFFECTS if effect not in present and not effect.kept(self.scene)]
+
+    @property
+    def not_switched(self) -> dict[str, str]:
+        """The effects that the scene has, but that are not switched on and off, with the reasons."""
+        return {effect.name: reason for effect in EFFECTS if (reason := effect.kept(self.scene))}
 
 
 def analyse_effects(scene: Bearing, cells: int, models: Sequence[Model], progress: Progress = silent) -> EffectAnalysis:

@@ -1,17 +1,20 @@
 """The changes of a bearing by heating and by shear thinning, from models that differ by them on one coarse grid."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 from roughfilm import rom
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.rounding import share
+from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.effects.absent import absent_effects
+from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.keyed import KeyedScene, keyed
 from roughfilm.rom.bearing.roughness import RoughSurface
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.bearing.thermal.tables import Conducting, Heat
 from roughfilm.rom.cavitation.newton import few_rounds
 from roughfilm.rom.ladder.kind import Omission, kind_of, kind_of_scene
 from roughfilm.rom.ladder.model import Effect, Model, ladder
@@ -51,6 +54,8 @@ class CoarseFilms:
     smooth : whether the rough wall of the scene was replaced by a smooth one.
     conducts_as_oil : whether the lubricant has ``OIL_CONDUCTIVITY``, as none is given.
     absent : effects that the scene does not have.
+    in_still_air : where ``heat_balance`` estimates the heat transfer of the bearing, the result of the model with most
+        of these effects whose fixed wall has it, and the name of that model; None elsewhere.
     """
 
     models: tuple[Model[Bearing], ...]
@@ -59,6 +64,7 @@ class CoarseFilms:
     smooth: bool
     absent: frozenset[str]
     conducts_as_oil: bool = False
+    in_still_air: Result | None = None
 
     def effects(self, model: Model[Bearing]) -> frozenset[Effect]:
         """The effects on the viscosity that a model keeps in the scene."""
@@ -84,10 +90,13 @@ class CoarseFilms:
 
     def change(self, quantity: str, more: Model[Bearing], less: Model[Bearing]) -> float | None:
         """A quantity by one model minus that by another one, over its size by the first; None if one lacks it."""
-        if any(one.name not in self.results for one in (more, less)):
-            return None
-        found, other = self.results[more.name], self.results[less.name]
-        if quantity not in found.quantities or quantity not in other.quantities:
+        found = self.results.get(more.name)
+        return None if found is None else self.change_to(quantity, found, less)
+
+    def change_to(self, quantity: str, found: Result, less: Model[Bearing]) -> float | None:
+        """The same of a result."""
+        other = self.results.get(less.name)
+        if other is None or quantity not in found.quantities or quantity not in other.quantities:
             return None
         size = kind_of(found).scale_of(found, quantity)
         return (found[quantity].value - other[quantity].value) / size if size > 0 else None
@@ -109,7 +118,8 @@ def viscosity_omitted(scene: Bearing, model: Model[Bearing], quantity: str) -> O
     """The relative change of a quantity by heating and shear thinning that a model leaves out; None if it is unknown.
 
     It is ``MARGIN`` times the difference between the model with most of these effects and the one that has those of the
-    model, on one coarse grid. It is infinite if the former fails, as by a thermal runaway.
+    model, on one coarse grid. It is infinite if the former fails, as by a thermal runaway. A model that estimates the
+    heat transfer of the bearing is compared with a film between walls that have it.
     """
     films = coarse_films(scene)
     if films is None:
@@ -118,11 +128,14 @@ def viscosity_omitted(scene: Bearing, model: Model[Bearing], quantity: str) -> O
     above = films.above(own)
     if not above or own.name not in films.results:
         return None
-    best = above[-1]
-    if best.name in films.failures:
+    best, change = above[-1], None
+    if films.in_still_air is not None and _heat_given_off(scene, films.results[own.name]) is not None:
+        change = films.change_to(quantity, films.in_still_air, own)
+    elif best.name in films.failures:
         reason = f"{_listed(films.left_out(best, own))}: {films.failures[best.name]}"
         return Omission(part=math.inf, reason=reason, source=ON_COARSE_GRID)
-    change = films.change(quantity, best, own)
+    else:
+        change = films.change(quantity, best, own)
     if change is None:
         return None
     names = films.left_out(best, own)
@@ -171,6 +184,10 @@ def _films(question: KeyedScene) -> CoarseFilms | None:
         results, failures = _solved(scene, models, cells)
         if not failures:
             break
+    in_still_air = None
+    if (cooled := _giving_off(scene, results.values())) is not None:
+        others, _failures = _solved(cooled, models[-1:], cells)
+        in_still_air = others.get(models[-1].name)
     return CoarseFilms(
         models=models,
         results=results,
@@ -178,6 +195,7 @@ def _films(question: KeyedScene) -> CoarseFilms | None:
         smooth=smooth,
         conducts_as_oil=conducts_as_oil,
         absent=absent,
+        in_still_air=in_still_air,
     )
 
 
@@ -192,3 +210,22 @@ def _solved(scene: Bearing, models: Sequence[Model[Bearing]], cells: int) -> tup
         except (InputError, ConvergenceError) as error:
             failures[model.name] = str(error)
     return results, failures
+
+
+def _heat_given_off(scene: Bearing, found: Result) -> float | None:
+    """The heat, W, that a result gives off by a heat transfer which it estimates; None of other results."""
+    off, heat = found.quantities.get(f"heat_to_surroundings{'_per_width' if scene.wide else ''}"), scene.heat or Heat()
+    return None if off is None or off.value == 0 or heat.heat_transfer is not None else off.value
+
+
+def _giving_off(scene: Bearing, results: Collection[Result]) -> Bearing | None:
+    """The scene with a fixed wall that has the heat transfer which a result estimates; None where none does."""
+    found = next((one for one in results if _heat_given_off(scene, one) is not None), None)
+    heat = scene.heat or Heat()
+    if found is None or not heat.insulated:
+        return None
+    off = _heat_given_off(scene, found) or 0.0
+    rise = found["effective_temperature"].value + ZERO_CELSIUS - scene.lubricant.liquid.temperature
+    area = scene.nominal_area * (math.pi if isinstance(scene.geometry, Shaft) else 1.0)
+    wall = Conducting.model_construct(kind="conducting", heat_transfer=off / rise / area)
+    return scene.model_copy(update={"heat": heat.model_copy(update={"fixed_wall": wall})})

@@ -13,7 +13,7 @@ import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.entries import InUnit, Length, Part, ScenePath, plain_number
+from roughfilm.contact.foundation.entries import InUnit, Length, Part, ScenePath, rounded_number
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.reading.regular import file_size
 from roughfilm.rom.parts.columns_file import read_columns
@@ -47,12 +47,12 @@ UNITS: Mapping[str, tuple[str, ...]] = {
 
 HEADER = "time (ms), load (kN), angle (deg)"
 
-Number = Annotated[float, BeforeValidator(plain_number)]
-Time = Annotated[float, InUnit("s", any_sign=True)]
-Speed = Annotated[float, InUnit("m/s", any_sign=True)]
-Force = Annotated[float, InUnit("N", any_sign=True)]
-Angle = Annotated[float, InUnit("rad", any_sign=True)]
-Moment = Annotated[float, InUnit("N*m", any_sign=True)]
+Number = Annotated[float, BeforeValidator(rounded_number)]
+Time = Annotated[float, InUnit("s", any_sign=True, rounds=True)]
+Speed = Annotated[float, InUnit("m/s", any_sign=True, rounds=True)]
+Force = Annotated[float, InUnit("N", any_sign=True, rounds=True)]
+Angle = Annotated[float, InUnit("rad", any_sign=True, rounds=True)]
+Moment = Annotated[float, InUnit("N*m", any_sign=True, rounds=True)]
 Rows = Annotated[tuple[Time, ...], Field(min_length=MIN_ROWS, max_length=MAX_ROWS)]
 
 

@@ -6,7 +6,8 @@ from roughfilm.rom.bearing.film import averaging_applies
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.ring import Ring
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.tables import Adiabatic, HalfSpace, Heat
+from roughfilm.rom.bearing.thermal.exchange import leaves_through_the_wall
+from roughfilm.rom.bearing.thermal.tables import HalfSpace, Heat
 from roughfilm.rom.ladder.model import Applicability
 
 WALLS = ("fixed_wall", "sliding_wall")
@@ -70,7 +71,7 @@ def across_applies(scene: Bearing) -> Applicability:
     fits, heat = has_temperature(scene, "the temperature from wall to wall"), scene.heat or Heat()
     if not fits.applies:
         return fits
-    if _stays(scene) and isinstance(heat.fixed_wall, Adiabatic) and isinstance(heat.sliding_wall, Adiabatic):
+    if _stays(scene) and heat.insulated and not leaves_through_the_wall(scene):
         return UNSTEADY
     if scene.lubricant.conductivity is None:
         return Applicability(
@@ -87,4 +88,4 @@ def across_applies(scene: Bearing) -> Applicability:
     if isinstance(heat.sliding_wall, HalfSpace) and (scene.motion.speed == 0 or endless):
         why = "heat.sliding_wall: a half space needs a film with an inlet past which it slides; take turning"
         return Applicability(applies=False, reason=why)
-    return _without(fits, scene, SURROUNDINGS)
+    return fits if leaves_through_the_wall(scene) else _without(fits, scene, SURROUNDINGS)

@@ -8,8 +8,8 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.equilibrium.expected import expected_scene
 from roughfilm.rom.bearing.scene import Bearing
-from roughfilm.rom.bearing.thermal.exchange import IN_A_MACHINE
-from roughfilm.rom.bearing.thermal.tables import Adiabatic, Heat
+from roughfilm.rom.bearing.thermal.exchange import IN_A_MACHINE, leaves_through_the_wall
+from roughfilm.rom.bearing.thermal.tables import Heat
 from roughfilm.rom.ladder.model import Effect, Model
 from roughfilm.rom.ladder.result import Result
 
@@ -60,7 +60,7 @@ def heat_that_stays(scene: Bearing, model: Model[Bearing]) -> tuple[str, ...]:
     """
     lubricant, heat = scene.lubricant, scene.heat or Heat()
     across = Effect.TEMPERATURE_ACROSS in model.keeps
-    cooled = across and not all(isinstance(wall, Adiabatic) for wall in (heat.fixed_wall, heat.sliding_wall))
+    cooled = across and (not heat.insulated or leaves_through_the_wall(scene))
     if Effect.TEMPERATURE_FIELD not in model.keeps or cooled or lubricant.lacking:
         return ()
     if scene.asperities is None or scene.roughness is None or scene.load_pressure is None:

@@ -124,10 +124,11 @@ class Heat(Part):
 
     Attributes
     ----------
-    fixed_wall, sliding_wall : the walls, for the model ``across``; adiabatic by default.
+    fixed_wall, sliding_wall : the walls, for the model ``across``; adiabatic by default. If neither takes heat, the
+        fixed wall gives it to the surroundings by ``heat_transfer``, where that is given.
     carried_over : part of the hot lubricant at the end of a film that enters the next one behind a gap or groove, as
         far as the flow there allows; the rest is new lubricant.
-    heat_transfer : heat transfer coefficient from the bearing to the surroundings, W/(m² K), for ``heat_balance``.
+    heat_transfer : heat transfer coefficient from the bearing to the surroundings, W/(m² K).
     area : surface of the bearing that gives off this heat, m².
     surroundings : temperature of the surroundings, K; by default that of the supplied lubricant.
     time_constant : time constant of the temperature of the walls, s, for a march.
@@ -140,6 +141,12 @@ class Heat(Part):
     area: Area | None = None
     surroundings: Temperature | None = None
     time_constant: Time | None = None
+
+    @property
+    def insulated(self) -> bool:
+        """Whether neither wall takes heat in sum."""
+        turning = isinstance(self.sliding_wall, Turning) and self.sliding_wall.temperature is None
+        return isinstance(self.fixed_wall, Adiabatic) and (turning or isinstance(self.sliding_wall, Adiabatic))
 
     @model_validator(mode="after")
     def _gives_off_heat_through_an_area(self) -> Self:

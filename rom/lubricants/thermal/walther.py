@@ -47,7 +47,7 @@ POUR_AND_FLASH = {
 }
 """Pour and flash points of mineral oils by their grade, °C: the highest and the lowest that DIN 51524-2 permits up to
 ISO VG 150 and DIN 51517-3 up to 1000, rounded; typical ones of the others. Between them an oil is a liquid whose vapour
-does not burn."""
+does not burn. Turbine oils of JIS K 2213 (VG 32) may pour up to -10 °C, and flash above 190 °C."""
 
 MAX_STEPS = 20
 """Largest number of steps in which a viscosity is sought; five are enough in the range of the law."""

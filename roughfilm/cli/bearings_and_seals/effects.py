@@ -97,6 +97,7 @@ def _entries(analysis: EffectAnalysis) -> dict[str, Any]:
         "numbers": bearing_numbers(analysis.scene),
         "treatments": [asdict(one) for one in analysis.treated],
         "left_out": analysis.left_out,
+        "not_switched": analysis.not_switched,
         "at_film": _study_entries(film),
         "under_load": loaded and _study_entries(loaded),
         "inertia": analysis.inertia and asdict(analysis.inertia),
@@ -162,5 +163,6 @@ def _shown(analysis: EffectAnalysis) -> Iterator[Table | str]:
     load = next(iter(shown_quantities(analysis.at_film, ("load",))))
     yield from (f"load, {sentence}" for sentence in sentences(analysis.at_film, load, analysis.not_counted))
     yield from (f"{treated.effect} by {treated.model}: {treated.why}" for treated in analysis.treated)
+    yield from (f"{name}, not switched off: {reason}" for name, reason in analysis.not_switched.items())
     if analysis.left_out:
         yield f"left out, because the scene does not have them: {', '.join(analysis.left_out)}"

@@ -1,12 +1,12 @@
 """Films with temperatures that test the thermal models, and the judgement of the answers."""
 
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.timing import working_time
 from roughfilm.contact.foundation.units import Quantity
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.corners import CARRIED, PUMPED
@@ -63,12 +63,12 @@ def bounded(ask: Callable[[], Any]) -> Any:
     TimeoutError
         If either takes more than ``LONGEST_S``.
     """
-    start, error = time.process_time(), None
+    start, error = working_time(), None
     try:
         answer = ask()
     except (InputError, ConvergenceError) as caught:
         answer, error = None, caught
-    if (cpu_s := time.process_time() - start) > LONGEST_S:
+    if (cpu_s := working_time() - start) > LONGEST_S:
         raise TimeoutError(f"an end after {cpu_s:.3g} s CPU: {error or 'an answer'}")
     if error is not None:
         raise error

@@ -5,6 +5,7 @@ import pytest
 import roughfilm as rf
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.rom.advice.advise import wanted
+from roughfilm.rom.advice.expected import error_lines
 from roughfilm.rom.bearing.totals.reported import REPORTED
 from roughfilm.rom.ladder.kind import kind_of
 from roughfilm.rom.ladder.scene import read_scene
@@ -83,3 +84,10 @@ def test_the_advice_on_a_given_quantity_states_the_same_error(wedge, results):
     stated = {one.model: one.error for one in advice.considered}
     assert advice.chosen.model == "across"
     assert results["adiabatic"].expected_error["temperature_max"] == pytest.approx(stated["adiabatic"], rel=0.05)
+
+
+def test_the_power_loss_of_a_heated_film_has_the_error_of_its_friction(results):
+    for result in results.values():
+        lines = error_lines(kind_of(result), result)
+        assert sum("friction and power loss" in line for line in lines) == 1
+        assert kind_of(result).alike == {"friction_per_width": "power loss"}

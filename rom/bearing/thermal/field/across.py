@@ -10,6 +10,7 @@ from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Ou
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.shear_thinning import mean_gap
+from roughfilm.rom.bearing.thermal.exchange import conductance_of, leaves_through_the_wall
 from roughfilm.rom.bearing.thermal.field.asperity_friction import asperity_friction
 from roughfilm.rom.bearing.thermal.field.heated import HeatedFilm
 from roughfilm.rom.bearing.thermal.field.mixing import (
@@ -24,6 +25,7 @@ from roughfilm.rom.bearing.thermal.field.mixing import (
 from roughfilm.rom.bearing.thermal.field.nodal import between_nodes
 from roughfilm.rom.bearing.thermal.field.solve import solve_heated
 from roughfilm.rom.bearing.thermal.tables import Adiabatic, Conducting, GivenTemperature, HalfSpace, Heat, Turning
+from roughfilm.rom.cavitation.grid import film_areas
 from roughfilm.rom.cavitation.solve import Solution
 from roughfilm.rom.lubricants.liquid import Liquid
 from roughfilm.rom.shear_thinning.film import thinned_profiles
@@ -92,7 +94,7 @@ class BetweenWalls:
         try:
             return self._heated(solution, near)
         except (InputError, ConvergenceError):
-            insulated = all(isinstance(wall, InsulatedWall) for wall in walls_of(self.scene, 0.0))
+            insulated = all(isinstance(wall, InsulatedWall) for wall in walls_of(self.scene, 0.0, solution))
             if self.scene.motion.approach <= 0 or not insulated:
                 raise
             raise ConvergenceError(STAYS, outcome=Outcome.DIVERGED) from None
@@ -100,7 +102,7 @@ class BetweenWalls:
     def _heated(self, solution: Solution, near: HeatedFilm | None) -> HeatedFilm:
         scene, liquid, heat = self.scene, self.scene.lubricant.liquid, self.scene.heat or Heat()
         boundary = asperity_friction(scene, solution, near)
-        sliding, fixed = walls_of(scene, liquid.temperature)
+        sliding, fixed = walls_of(scene, liquid.temperature, solution)
         thins = scene.lubricant.shear_thinning is not None
         sheared, start = sheared_liquid(scene, solution), _start(near, solution, thins=thins)
         same = start is not None and near is not None and near.temperature.shape == solution.grid.shape
@@ -194,16 +196,25 @@ def _start(near: HeatedFilm | None, solution: Solution, *, thins: bool) -> Tempe
     return replace(known, temperature=temperature, iterate=fresh)
 
 
-def walls_of(scene: Bearing, supplied: float) -> tuple[SlidingWall, FixedWall]:
+def walls_of(scene: Bearing, supplied: float, solution: Solution) -> tuple[SlidingWall, FixedWall]:
     """The sliding and the fixed wall of the film of a scene.
+
+    A fixed wall through which the heat transfer of the bearing passes has it evenly over its area
+    (:func:`roughfilm.rom.bearing.thermal.exchange.leaves_through_the_wall`).
 
     Parameters
     ----------
     supplied : temperature of the supplied lubricant, K.
+    solution : the film.
     """
     heat = scene.heat or Heat()
-    fixed = heat.fixed_wall
-    return _sliding_wall(heat.sliding_wall, supplied), _fixed_wall(fixed, supplied)
+    sliding, fixed = _sliding_wall(heat.sliding_wall, supplied), _fixed_wall(heat.fixed_wall, supplied)
+    conductance = conductance_of(scene) if leaves_through_the_wall(scene) else None
+    if conductance is None:
+        return sliding, fixed
+    area = float(film_areas(solution.problem.shape, solution.grid).sum())
+    around = supplied if heat.surroundings is None else heat.surroundings
+    return sliding, ConductingWall(resistance=area / conductance, surroundings=around)
 
 
 def _sliding_wall(

@@ -55,6 +55,8 @@ def test_a_full_bore_keeps_its_side_flow_and_inertia_is_left_out():
     fed = {"boundary": {"sides": {"low": "1 bar", "high": "1 bar"}}}
     found = analyse_effects(scene_of(bore | {"eccentricity": [0.3, -0.4]}, **fed), 32, ())
     assert [one.name for one in found.at_film.contributions] == ["cavitation"]
+    assert found.not_switched == {"side flow": "lubricant enters and leaves the film through its sides alone"}
+    assert "side flow" not in found.left_out
     assert found.inertia is None
     assert "moves freely" in found.treated[-1].why
 

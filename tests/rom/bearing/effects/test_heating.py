@@ -109,6 +109,13 @@ def test_without_a_law_of_temperature_there_is_no_heating():
     assert "effective_temperature" not in analysis.at_film.full
 
 
+def test_heating_that_a_missing_key_leaves_out_is_no_absent_effect():
+    unknown = {name: value for name, value in HOT.items() if name != "heat_capacity"}
+    analysis = analyse_effects(scene_of(JOURNAL, unknown), 16, ())
+    assert "heating" not in analysis.left_out
+    assert analysis.not_switched["heating"].startswith("lubricant.heat_capacity: missing, so that all films have")
+
+
 @pytest.mark.parametrize(("supply", "beyond"), [("-20 degC", True), ("40 degC", False)])
 def test_a_lubricant_outside_of_its_range_is_said(supply, beyond):
     """By hand: the law of ISO VG 46 is valid from -15 °C to 185 °C, and the supply is 5 K below."""

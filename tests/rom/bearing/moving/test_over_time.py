@@ -54,6 +54,27 @@ def test_the_integral_of_a_column_counts_whole_periods():
     assert curve.since_first(5.0) == pytest.approx(np.trapezoid([curve(time) for time in times], times), rel=1e-6)
 
 
+@pytest.mark.parametrize("small", ["2.4e-17", "-1e-300", "0"])
+def test_numbers_below_their_range_are_rounding_errors_of_computed_ones(tmp_path, small):
+    """A sine at whole turns; a number above the range, or one that is not finite, is refused."""
+    path = tmp_path / "path.csv"
+    head = "time (s), eccentricity_x, eccentricity_y, speed (rad/s)\n0, 0.1, 0, 1\n"
+    path.write_text(f"{head}1, 0.2, {small}, {small}\n")
+    in_file = scene({"file": str(path)}).motion.over_time.table
+    lists = {"time": ["0 s", "1 s"], "eccentricity_x": [0.1, 0.2], "eccentricity_y": [0, float(small)]}
+    in_lists = scene(lists | {"speed": ["0.025 m/s", f"{small} m/s"]}).motion.over_time.table
+    for table in (in_file, in_lists):
+        assert table.columns["eccentricity_y"].tolist() == [0.0, 0.0]
+        assert abs(table.columns["speed"][1]) <= abs(float(small))
+    path.write_text(f"time (s), load (N), moment_x (N m)\n0, 5, 1\n1, 5, {small}\n")
+    pivoted = {"shape": "pivoted", "length": "50 mm", "width": "50 mm", "pivot": [0.58, 0.5]}
+    assert abs(scene({"file": str(path)}, pivoted).motion.over_time.table.columns["moment_x"][1]) <= abs(float(small))
+    for wrong in ("1e40", "inf", "nan"):
+        path.write_text(f"{head}1, 0.2, {wrong}, 1\n")
+        with pytest.raises(InputError, match="line 3: eccentricity_y"):
+            scene({"file": str(path)})
+
+
 def test_a_file_gives_the_columns_in_si_units_and_its_digest_is_kept(tmp_path):
     path = tmp_path / "duty.csv"
     path.write_text("load (kN), time (ms), speed (rpm)\n1, 0, 60\n2, 10, 120\n")

@@ -104,7 +104,16 @@ def test_a_half_space_slides_past_films_with_an_inlet_also_under_a_load(geometry
         ("heat_balance", {"fixed_wall": {"kind": "temperature", "temperature": "40 degC"}}, "heat.fixed_wall"),
         ("adiabatic", {"sliding_wall": "turning"}, "heat.sliding_wall"),
         ("adiabatic", {"heat_transfer": "20 W/(m^2*K)", "area": "1 m^2"}, "heat.heat_transfer"),
-        ("across", {"heat_transfer": "20 W/(m^2*K)", "area": "1 m^2"}, "heat.heat_transfer"),
+        ("across", {"heat_transfer": "20 W/(m^2*K)", "area": "1 m^2"}, None),
+        (
+            "across",
+            {
+                "heat_transfer": "20 W/(m^2*K)",
+                "area": "1 m^2",
+                "fixed_wall": {"kind": "temperature", "temperature": "40 degC"},
+            },
+            "heat.heat_transfer",
+        ),
         ("across", {"sliding_wall": "turning"}, None),
     ],
 )

@@ -1,7 +1,10 @@
 """Films whose temperature varies from wall to wall, with the walls of the table [heat] of a scene."""
 
+import math
+
 import pytest
 
+import roughfilm as rf
 from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.ladder import find
 from roughfilm.rom.ladder.request import Request
@@ -155,3 +158,56 @@ def test_lubricant_that_stays_between_insulated_walls_that_approach_has_no_stead
         solved(scene(geometry, motion=motion), cells=12)
     cooled = solved(scene(geometry, motion=motion, heat={"fixed_wall": WALL}), cells=12)
     assert 40 < value(cooled, "temperature_max") < 60
+
+
+SLOW = {"shape": "journal", "radius": "25 mm", "width": "25 mm", "clearance": "40 um"}
+AIR = {"heat_transfer": "20 W/(m^2*K)", "area": "0.1 m^2", "surroundings": "20 degC"}
+
+
+def test_a_concentric_shaft_gives_its_friction_to_the_surroundings_of_the_bearing():
+    """Petroff's friction P leaves by the fixed wall, at T_a + P/(α A); over the film it is 1/2, in the mean 1/3 warmer.
+
+    Lubricant that stays is heated evenly, and conducts with the parabola of a wall that takes no heat.
+    """
+    even = {**LUBRICANT, "thermoviscosity": {"law": "exponential", "temperature_coefficient": "0 1/K"}}
+    concentric = {**BORE, "eccentricity": [0.0, 0.0]}
+    still = {"sides": {"low": "0.1 MPa", "high": "0.1 MPa"}}
+    result = solved(scene(concentric, even, heat=AIR, boundary=still, motion={"speed": "1 m/s"}))
+    gap, surface = 60e-6, 2 * math.pi * 0.05 * 0.08
+    power = 0.03 * surface / gap
+    wall, across = 20 + power / 2.0, power / surface * gap / 0.14
+    assert value(result, "heat_to_fixed_wall") == pytest.approx(power, rel=1e-6)
+    assert result.fields["fixed_wall_temperature"].values == pytest.approx(wall, rel=1e-6)
+    assert value(result, "temperature_mean") == pytest.approx(wall + across / 3, rel=1e-6)
+    assert value(result, "temperature_max") == pytest.approx(wall + across / 2, rel=1e-6)
+
+
+@pytest.mark.parametrize("given", [True, False], ids=["given", "estimated"])
+def test_one_temperature_states_its_error_against_walls_that_take_the_same_heat(given):
+    """At 10 rpm the solids take the heat: the error of one temperature is a few per cent, not above 100 %.
+
+    It contains the difference to ``across`` with walls of that heat transfer, without being five times too wide, or
+    more than the uncertainty of both.
+    """
+    entries = {
+        "name": "slow",
+        "kind": "bearing",
+        "geometry": SLOW,
+        "lubricant": {"oil": "ISO VG 46", "temperature": "60 degC"},
+        "motion": {"speed": "10 rpm"},
+        "load": {"force": "1 kN"},
+    }
+    bearing = read_scene(entries | ({"heat": AIR} if given else {}))
+    found = rf.solve(bearing, model="heat_balance", resolution=64)
+    if not given:
+        area, nominal = 2 * math.pi * 25e-3 * 25e-3, 50e-3 * 25e-3
+        transfer = value(found, "heat_to_surroundings") / (value(found, "effective_temperature") - 60) / area
+        assert transfer == pytest.approx(300 * nominal / area, rel=0.15)
+        wall = {"kind": "conducting", "heat_transfer": f"{transfer!r} W/(m^2*K)"}
+        bearing = read_scene(entries | {"heat": {"fixed_wall": wall}})
+    true = solved(bearing, cells=64)
+    for name in ("film_min", "friction"):
+        key = name if name == "film_min" else "friction_per_width"
+        error = abs(value(found, name) / value(true, name) - 1)
+        own = sum(one[name].uncertainty / one[name].value for one in (found, true))
+        assert error <= found.expected_error[key] <= 5 * error + own, name
