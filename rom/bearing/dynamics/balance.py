@@ -74,7 +74,7 @@ def balanced_equilibrium(
     walls : its walls, smooth or rough.
     cells : numbers of cells along and across.
     coarse : the equilibrium on a coarser grid, or with another heat transfer.
-    part : heat transfer to the surroundings over the one that is estimated where none is given.
+    part : heat transfer to still air over the one that is taken where none is given.
 
     Raises
     ------
@@ -135,7 +135,7 @@ def temperatures_of(scene: Bearing, film: FreeFilm, instant: Instant, part: floa
     ----------
     scene : the bearing with the lubricant as it is supplied.
     film, instant : the equilibrium, whose scene has the lubricant at the temperature of the film.
-    part : heat transfer to the surroundings over the one that is estimated where none is given.
+    part : heat transfer to still air over the one that is taken where none is given.
 
     Raises
     ------

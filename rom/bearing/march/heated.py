@@ -37,7 +37,7 @@ class HeatedMarch:
     ----------
     duty : what moves the bearing.
     observer : the numbers of its film.
-    part : heat transfer to the surroundings over the one that is estimated where none is given.
+    part : heat transfer to still air over the one that is taken where none is given.
     """
 
     duty: Duty

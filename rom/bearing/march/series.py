@@ -130,7 +130,7 @@ def run(
 
     Parameters
     ----------
-    part : heat transfer to the surroundings over the one that is estimated where none is given.
+    part : heat transfer to still air over the one that is taken where none is given.
     known : chunks that were kept before; the march goes on behind them with the same numbers, bit for bit.
     keep : called with each finished chunk.
 

@@ -32,7 +32,7 @@ and ISO 7902-1 15 to 20 W/(m² K) over a surface of 15 to 20 times the nominal a
 Gleichstrommaschine 1, chapter 27). Half and twice of it, ``ESTIMATED``, contain nearly all of both."""
 
 ESTIMATED = (0.5, 2.0)
-"""Ends of the range of a heat transfer that is estimated as none is given, over it."""
+"""Ends of the range of the heat transfer to still air over ``IN_A_MACHINE``."""
 
 NEAR = 1e-3
 """Difference of two temperatures below which the mean heat capacity between them is that at one of them, K."""
@@ -120,7 +120,7 @@ def temperatures(exchange: Exchange, liquid: Liquid, *, part: float = 1.0) -> Te
     ----------
     exchange : power and flows of the film.
     liquid : its lubricant over temperature.
-    part : the heat transfer over the one that is estimated; no effect where it is given.
+    part : the heat transfer to still air over ``IN_A_MACHINE``; no effect where a heat transfer is given.
 
     Raises
     ------
@@ -132,7 +132,7 @@ def temperatures(exchange: Exchange, liquid: Liquid, *, part: float = 1.0) -> Te
     conductance, estimated = exchange.conductance, 0.0
     if conductance is None:
         capacity = float(liquid.heat(np.array([liquid.temperature]))[1][0]) * exchange.renewed
-        conductance = estimated = part * max(IN_A_MACHINE * exchange.area - capacity, 0.0)
+        conductance = estimated = max(part * IN_A_MACHINE * exchange.area - capacity, 0.0)
     if not exchange.flows:
         only = exchange.surroundings + exchange.power / conductance
         return Temperatures(

@@ -28,7 +28,7 @@ class HeatedSearch:
     Attributes
     ----------
     isothermal : the films at any given temperature.
-    part : heat transfer to the surroundings over the one that is estimated where none is given.
+    part : heat transfer to still air over the one that is taken where none is given.
     """
 
     isothermal: Search
@@ -148,7 +148,7 @@ def heated_state(state: MixedState, scene: Bearing, *, part: float = 1.0) -> Mix
     Parameters
     ----------
     scene : the bearing with the lubricant as it is supplied.
-    part : heat transfer to the surroundings over the one that is estimated where none is given.
+    part : heat transfer to still air over the one that is taken where none is given.
     """
     liquid = scene.lubricant.liquid
     quantities = bearing_quantities(state.scene, state.solution, state.contact.force)
