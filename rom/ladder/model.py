@@ -233,7 +233,8 @@ class Model(Generic[SceneT]):
                 )
             result = with_finite_numbers(self.compute(self, scene, checked, progress))
         waited = max(time.perf_counter() - started, result.numerics.wall_s)
-        numerics = replace(result.numerics, wall_s=waited, one_time=claimed_costs())
+        spent = max(0.0, result.numerics.cpu_s)  # below 0 by round-off where all of it is one-time
+        numerics = replace(result.numerics, cpu_s=spent, wall_s=waited, one_time=claimed_costs())
         return self.bounded(scene, replace(result, numerics=numerics))
 
     def bounded(self, scene: SceneT, result: Result) -> Result:

@@ -175,6 +175,11 @@ def test_what_is_unknown_is_left_out(make_scene):
     assert (result.numerics.runs[0].residual, result.numerics.runs[0].imbalance) == (None, 0.5)
 
 
+def test_a_time_that_is_one_time_but_for_round_off_is_not_below_0(make_scene):
+    model = answering(lambda result: replace(result, numerics=replace(result.numerics, cpu_s=-7e-18)))
+    assert model.solve(make_scene(0.3, 0.25, 20)).numerics.cpu_s == 0
+
+
 def test_a_request_that_would_take_for_months_is_refused(make_scene):
     with pytest.raises(InputError, match=r"^resolution: .* would take reynolds more than 1e\+09 s of CPU"):
         answering(cost=1e10).solve(make_scene(0.3, 0.25, 1.0))
