@@ -62,6 +62,13 @@ TIME_SAFETY = 1.5
 Steps twice as long differ by three times the error of second order, and by the error itself of first order.
 """
 
+ORBIT = ("film_min", "eccentricity_max", "orbit_width", "orbit_height")
+ORBIT_SAFETY = 0.4
+"""Uncertainty by the time steps of a path and of these extremes over the difference to longer steps.
+
+A path is of second order also where forces jump, so that steps twice as long differ by three times its error.
+"""
+
 PATH_SAFETY = 1.0
 """Least uncertainty of the extremes of a path over its differences to those of the other marches."""
 
@@ -413,7 +420,9 @@ def _uncertainties(duty: Duty, summary: Summary, fine: Series, others: _Compared
     coarse, steps = (summary_of(duty, one).quantities for one in (others.coarse, others.steps))
     found = {
         name: GRID_SAFETY * others.of_grid * abs(one.value - coarse[name].value)
-        + TIME_SAFETY * others.of_steps * abs(coarse[name].value - steps[name].value)
+        + (ORBIT_SAFETY if name in ORBIT else TIME_SAFETY)
+        * others.of_steps
+        * abs(coarse[name].value - steps[name].value)
         + summary.between.get(name, 0.0)
         for name, one in summary.quantities.items()
     }
@@ -421,7 +430,7 @@ def _uncertainties(duty: Duty, summary: Summary, fine: Series, others: _Compared
     path = 0.0
     if not duty.given_path or duty.pivoted is not None:
         path = others.of_grid * apart(duty, fine, others.coarse, *times)
-        path += others.of_steps * apart(duty, others.coarse, others.steps, *times)
+        path += ORBIT_SAFETY * others.of_steps * apart(duty, others.coarse, others.steps, *times)
     unit = path_unit(duty, fine)
     least = dict.fromkeys(("eccentricity_max", "orbit_width", "orbit_height"), PATH_SAFETY * path)
     least |= {"film_min": PATH_SAFETY * path * unit, "cavitated_fraction_max": 1 / fine_cells}
