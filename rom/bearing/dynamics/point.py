@@ -156,6 +156,13 @@ class GridPoint:
     spectrum: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
 
 
+def changes_of(name: str, own: GridPoint, others: Sequence[GridPoint]) -> list[float]:
+    """How much a number, or an entry of the whirl, of other points differs from that of a point; none without it."""
+    if name in own.numbers:
+        return [abs(other.numbers[name] - own.numbers[name]) for other in others]
+    return [] if own.whirl is None else [abs(getattr(one.whirl, name) - getattr(own.whirl, name)) for one in others]
+
+
 def grid_point(film: FreeFilm, instant: Instant, ratio: float) -> GridPoint:
     """The numbers of an equilibrium on its grid.
 

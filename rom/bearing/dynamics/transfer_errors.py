@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.rom.bearing.dynamics.balance import Equilibrium, balanced_equilibrium, point_of
+from roughfilm.rom.bearing.dynamics.point import changes_of
 from roughfilm.rom.bearing.march.rough_walls import Walls
 from roughfilm.rom.bearing.scene import Bearing
 from roughfilm.rom.bearing.thermal.exchange import ESTIMATED
@@ -15,13 +16,7 @@ def transfer_errors(scene: Bearing, walls: Walls, found: Equilibrium, ratio: flo
 
     The heat is balanced again with half and with twice the heat transfer; the larger change of each number counts. It
     is infinite where one of them has no equilibrium, and 0 where the heat transfer is given or none is needed.
-
-    Parameters
-    ----------
-    scene : the bearing with the lubricant as it is supplied.
-    walls : its walls.
-    found : the equilibrium on a grid.
-    ratio : frequency of the motion over that of the rotation.
+    Parameters are those of :func:`roughfilm.rom.bearing.dynamics.wall_errors.wall_errors`.
     """
     if found.temperatures is None or not found.temperatures.estimated:
         return lambda _name: 0.0
@@ -35,12 +30,7 @@ def transfer_errors(scene: Bearing, walls: Walls, found: Equilibrium, ratio: flo
     own = point_of(found, ratio)
 
     def error(name: str) -> float:
-        if name in own.numbers:
-            changes = [abs(end.numbers[name] - own.numbers[name]) for end in ends]
-        elif own.whirl is None:
-            return 0.0
-        else:
-            changes = [abs(getattr(end.whirl, name) - getattr(own.whirl, name)) for end in ends]
-        return max(changes) if all(map(math.isfinite, changes)) else math.inf
+        changes = changes_of(name, own, ends)
+        return max(changes, default=0.0) if all(map(math.isfinite, changes)) else math.inf
 
     return error

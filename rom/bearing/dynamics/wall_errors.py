@@ -10,7 +10,7 @@ from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.contact.foundation.units import ZERO_CELSIUS
 from roughfilm.rom.bearing.dynamics.balance import TOLERANCE, Equilibrium, point_of, temperatures_of
-from roughfilm.rom.bearing.dynamics.point import GridPoint, grid_point
+from roughfilm.rom.bearing.dynamics.point import GridPoint, changes_of, grid_point
 from roughfilm.rom.bearing.free.equilibrium import equilibrium
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.march.rough_walls import Walls
@@ -121,14 +121,8 @@ def wall_errors(scene: Bearing, walls: Walls, found: Equilibrium, ratio: float) 
     def error(name: str) -> float:
         if name in found.degrees:
             return direct[name]
-        if name in own.numbers:
-            changes = sum(abs(other.numbers[name] - own.numbers[name]) for other in others)
-            return changes + direct.get(name, 0.0) if math.isfinite(changes) else math.inf
-        if own.whirl is None:
-            return 0.0
-        here = getattr(own.whirl, name)
-        changes = sum(abs(getattr(other.whirl, name) - here) for other in others)
-        return changes if math.isfinite(changes) else math.inf
+        changes = sum(changes_of(name, own, others))
+        return changes + direct.get(name, 0.0) if math.isfinite(changes) else math.inf
 
     return error
 

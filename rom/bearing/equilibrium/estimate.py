@@ -35,14 +35,7 @@ def estimate(scene: Bearing) -> tuple[float, float]:
     """The minimum film thickness of a scene under its load, m, and the exponent n of the load there, W ~ h⁻ⁿ.
 
     Ridges are averaged, and other walls are smooth; where asperities touch, the film is at least ``CONTACT_FILM`` times
-    the rms height.
-
-    Raises
-    ------
-    InputError
-        If no film carries the load.
-    ConvergenceError
-        If a film or the load does not converge.
+    the rms height. Errors are those of :func:`roughfilm.rom.bearing.equilibrium.expected.expected_film`.
     """
     roughness, pressure = scene.roughness, scene.load_pressure
     assert pressure is not None
