@@ -197,9 +197,15 @@ class AdviceTask:
         return self.quantity in self.kind.bounded(self.scene, model)
 
     def correction(self, result: Result) -> float | None:
-        """The bound of the error of the model in a result, over the size of the quantity; None if it has none."""
+        """The bound of the error of the model in a result, over the size of the quantity; None if it has none.
+
+        The true quantity may be smaller than that of the result by the bound; from a half on, this says nothing.
+        """
         bound = result.numerics.details.get(f"{BOUND}{self.quantity}")
-        return None if bound is None else over(bound, self.kind.scale_of(result, self.quantity))
+        if bound is None:
+            return None
+        size = self.kind.scale_of(result, self.quantity)
+        return over(bound, max(size - bound, size / 2))
 
     def uncertainty(self, result: Result) -> float | None:
         """The numerical uncertainty of the quantity in a result over its size; None if it is unknown."""

@@ -105,7 +105,7 @@ def expected_errors(scene: Scene, model: Model, result: Result, models: Sequence
         estimate = a_priori(task, model, result.numerics.resolution, own)
         if estimate is not None and estimate.sure:
             bound = task.correction(result) if quantity in result.quantities else None
-            if bound is not None and bound < estimate.error:
+            if bound is not None:
                 estimate = replace(estimate, error=bound, source=BY_CORRECTION)
             stated = estimate.stated(omitted)
             stated = replace(stated, error=max(stated.error, own or 0.0))

@@ -1,17 +1,21 @@
 """The models of the Reynolds equation over a cell in plan: their quantities with uncertainties from coarser grids."""
 
 import time
+from collections.abc import Mapping
 
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.contact.foundation.timing import working_time
+from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.model import Effect, Model, Progress
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
 from roughfilm.rom.ladder.result import NO_COARSER_GRID, Numerics, Result
+from roughfilm.rom.pocket.plan.bounds import Correction, of_inertia
 from roughfilm.rom.pocket.plan.grid import columns_across, require_resolved
-from roughfilm.rom.pocket.plan.level import levels_of, quantities_of
-from roughfilm.rom.pocket.plan.quantities import plan_fields
+from roughfilm.rom.pocket.plan.level import Level, levels_of, quantities_of
+from roughfilm.rom.pocket.plan.quantities import EXTREMES, plan_fields
 from roughfilm.rom.pocket.scene import Pocket
+from roughfilm.rom.pocket.validity.bounds import bounded
 from roughfilm.rom.pocket.validity.promise import promise_warnings
 from roughfilm.rom.pocket.validity.warnings import column_warnings, inertia_warnings, ruptures, steep_warnings
 
@@ -45,9 +49,10 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             outcome=Outcome.STALLED,
         )
     on_wall = finest.on_wall(number)
+    quantities = quantities_of(levels, scene, number)
     return Result(
         model=solver.name,
-        quantities=quantities_of(levels, scene, number),
+        quantities=quantities,
         fields=plan_fields(scene, on_wall),
         provenance=provenance(scene, model=solver.name, keeps=tuple(solver.keeps), sources=solver.sources),
         numerics=Numerics(
@@ -59,6 +64,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             resolution=request.resolution,
             tolerance=request.tolerance,
             scheme=request.scheme,
+            details=bounds_by_inertia(scene, finest, quantities) if bounded(scene, solver) else {},
         ),
         warnings=(
             *promise_warnings(scene, solver.name),
@@ -69,3 +75,13 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
             *([] if len(levels) > 1 else [NO_COARSER_GRID]),
         ),
     )
+
+
+def bounds_by_inertia(scene: Pocket, level: Level, quantities: Mapping[str, Quantity]) -> dict[str, float]:
+    """The bounds of the errors of a film by its correction for inertia; none without uncertainties."""
+    number, relative = scene.reynolds_number, level.change_of_pressure(scene.reynolds_number)
+    if relative is None or any(quantities[name].uncertainty is None for name in EXTREMES):
+        return {}
+    made = Correction.between(scene, *((level.quantities(scene, one), level.on_wall(one)) for one in (0.0, number)))
+    largest = max(abs(quantities[name].value) for name in EXTREMES)
+    return of_inertia(scene, made, quantities, largest=largest, relative=relative)

@@ -10,6 +10,10 @@ from roughfilm.contact.foundation.units import Quantity
 from roughfilm.rom.ladder.result import Field, beyond_round_off
 from roughfilm.rom.pocket.scene import Pocket, pocket_quantities
 
+LOADS = ("load_plus", "load_from_corner_plus")
+EXTREMES = ("pressure_max_plus", "pressure_min_plus")
+FRICTION = "friction_plus"
+
 
 @dataclass(frozen=True, kw_only=True)
 class OnSlidingWall:

@@ -8,17 +8,19 @@ import numpy as np
 from roughfilm.contact.foundation.errors import ConvergenceError, Outcome
 from roughfilm.contact.foundation.timing import working_time
 from roughfilm.contact.foundation.units import Quantity
-from roughfilm.rom.cavitation.evaluation.grids import MAX_GRID_RATIO, grid_uncertainty
+from roughfilm.rom.cavitation.evaluation.grids import MAX_GRID_RATIO
 from roughfilm.rom.ladder.model import Effect, Model, Progress, silent
 from roughfilm.rom.ladder.provenance import provenance
 from roughfilm.rom.ladder.request import CheckedRequest
-from roughfilm.rom.ladder.result import BOUND, NO_COARSER_GRID, Numerics, Result, with_uncertainties
+from roughfilm.rom.ladder.result import NO_COARSER_GRID, Numerics, Result, with_uncertainties
 from roughfilm.rom.pocket.model import SCHEMES
+from roughfilm.rom.pocket.plan.bounds import Correction, of_slope
 from roughfilm.rom.pocket.plan.film import newton, slope
 from roughfilm.rom.pocket.plan.film.equations import Film, SheetFlow
 from roughfilm.rom.pocket.plan.film.sheet import Sheet, sheet
 from roughfilm.rom.pocket.plan.grid import require_resolved
-from roughfilm.rom.pocket.plan.quantities import OnSlidingWall, plan_fields, plan_quantities
+from roughfilm.rom.pocket.plan.quantities import EXTREMES, OnSlidingWall, plan_fields, plan_quantities
+from roughfilm.rom.pocket.plan.refinement import refinement_uncertainty
 from roughfilm.rom.pocket.scene import Pocket
 from roughfilm.rom.pocket.validity.bounds import bounded
 from roughfilm.rom.pocket.validity.promise import promise_warnings
@@ -42,18 +44,6 @@ MIN_COARSE = 12
 COARSE_TOLERANCE = 1e-8
 """Smallest tolerance of the residual on a coarser grid."""
 
-AT_POINTS = {
-    "pressure_max_plus": 2.5,
-    "pressure_min_plus": 2.5,
-    "load_from_corner_plus": 1.5,
-    "load_from_corner_per_area": 1.5,
-}
-"""Factors of the uncertainties of quantities that are or contain the pressure at one point.
-
-Their errors do not decrease smoothly with the size of the columns. The factors were chosen on random cells, where
-uncertainties without them hold in 81 to 92 of 100 (docs/validation/coverage.md).
-"""
-
 MAX_KNOWN_RESIDUAL = 1e-7
 """Residual above which the error of the iteration may exceed that of the grid, so that no uncertainty is known.
 
@@ -69,13 +59,6 @@ Most random cells need 50 to 800, and the hardest ones that converge need 2400.
 RESPONSE_TOLERANCE = 1e-6
 """Tolerance of the linear response to the slope, relative to the neglected force."""
 
-PART_OF_SLOPE = 0.4
-"""Bound of the error of the load by ``film_slope`` over the correction by slope.
-
-Against Navier-Stokes flow on two grids over 19 dimples of every shape (``docs/theory/pockets.md``), d/h 0.25 to 0.75,
-slopes 0.05 to 0.5 and Re 40 to 160, this ratio is 0.06 to 0.29, with a median of 0.14.
-"""
-
 LOOSE = "the residual is above {:g}, so that the error is unknown; take that as the tolerance"
 """The warning of a film that is not converged enough for an uncertainty."""
 
@@ -84,20 +67,28 @@ LOOSE = "the residual is above {:g}, so that the error is unknown; take that as 
 class PlanFilm:
     """A solution of the thin-film equations over a cell in plan, with its residual and number of Newton steps.
 
-    ``level`` is the flow without the correction by slope.
+    ``other`` is the flow without slope of a solution with it, and with slope of one without; None if it is not known.
     """
 
     sheet: Sheet
     flow: SheetFlow
     residual: float
     steps: int
-    level: SheetFlow
+    other: SheetFlow | None
 
 
 def solve_sheet(
-    grid: Sheet, reynolds_number: float, *, tolerance: float, with_slope: bool, progress: Progress = silent
+    grid: Sheet,
+    reynolds_number: float,
+    *,
+    tolerance: float,
+    with_slope: bool,
+    measure_slope: bool = False,
+    progress: Progress = silent,
 ) -> PlanFilm:
     """Solve the thin-film equations on a grid, with slope to second order if asked for.
+
+    A film without slope has the flow with it too if its error is measured by that.
 
     Raises
     ------
@@ -128,14 +119,16 @@ def solve_sheet(
             progress,
             shallower="shallower dimples",
         )
-        level = flow
-        if with_slope:
+        sloped = None
+        if with_slope or measure_slope:
             force = slope.imbalance(linear.film, flow, linear.velocities)
             change, _ = linear.response(force, tolerance=RESPONSE_TOLERANCE)
-            if change is None:
+            if change is not None:
+                sloped = SheetFlow(flat=flow.flat + change.flat, shape=flow.shape)
+            elif with_slope:
                 raise ConvergenceError("the slope correction did not converge; take film or navier_stokes")
-            flow = SheetFlow(flat=flow.flat + change.flat, shape=flow.shape)
-    return PlanFilm(sheet=grid, flow=flow, residual=linear.residual, steps=steps, level=level)
+    own, other = (sloped, flow) if with_slope and sloped is not None else (flow, sloped)
+    return PlanFilm(sheet=grid, flow=own, residual=linear.residual, steps=steps, other=other)
 
 
 def on_sliding_wall(film: PlanFilm) -> OnSlidingWall:
@@ -207,6 +200,7 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
         scene.reynolds_number,
         tolerance=request.tolerance,
         with_slope=with_slope,
+        measure_slope=bool(bounded(scene, solver)),
         progress=progress,
     )
     films = [film]
@@ -223,13 +217,15 @@ def solve(solver: Model[Pocket], scene: Pocket, request: CheckedRequest, progres
     if len(films) > 1 and not loose:
         cells = [float(np.sqrt(np.prod(one.sheet.shape))) for one in films]
         uncertainties = {
-            name: AT_POINTS.get(name, 1.0) * grid_uncertainty(cells, [one[name].value for one in values])
+            name: refinement_uncertainty(cells, [one[name].value for one in values], order=2.0 if second_order else 1.0)
             for name in values[0]
         }
     bounds = {}
-    if "load_plus" in uncertainties and "load_plus" in bounded(scene, solver):
-        change = values[0]["load_plus"].value - _quantities(scene, replace(film, flow=film.level))["load_plus"].value
-        bounds[f"{BOUND}load_plus"] = PART_OF_SLOPE * abs(change) + uncertainties["load_plus"]
+    if uncertainties and bounded(scene, solver) and film.other is not None:
+        solutions = (film, replace(film, flow=film.other))
+        made = Correction.between(scene, *((_quantities(scene, one), on_sliding_wall(one)) for one in solutions))
+        largest = max(abs(values[0][name].value) for name in EXTREMES)
+        bounds = of_slope(scene, made, uncertainties, largest=largest, kept=with_slope)
     on_wall = on_sliding_wall(film)
     return Result(
         model=solver.name,

@@ -1,4 +1,7 @@
-"""The load of ``film_slope`` over dimples is bounded by its correction by slope, and not too widely."""
+"""Errors over dimples are bounded by the corrections that models make, and not too widely."""
+
+from pathlib import Path
+from statistics import median
 
 import pytest
 
@@ -7,6 +10,8 @@ from roughfilm.rom.advice.advise import advise
 from roughfilm.rom.advice.expected import with_errors
 from roughfilm.rom.advice.stated import BY_CORRECTION, stated_errors
 from roughfilm.rom.ladder.scene import read_scene
+from roughfilm.rom.pocket.kind import KIND
+from scripts.studies.coverage.store import path_of, read
 
 CAP = {"shape": "spherical", "width": "0.3 mm", "depth": "15 um"}
 ELLIPSE = {"shape": "ellipsoidal", "width": "0.3 mm", "breadth": "0.6 mm", "depth": "15 um"}
@@ -47,3 +52,22 @@ def test_a_dimple_deeper_than_was_judged_has_the_error_of_the_laws():
 def test_advice_runs_a_model_that_bounds_its_own_error():
     found = advise(cell(CAP), models("pocket"), quantity="load_plus", within=0.02)
     assert (found.chosen.model, found.chosen.stated.source) == ("film_slope", BY_CORRECTION)
+
+
+STORED = Path(__file__).parents[4] / "scripts/studies/coverage"
+QUANTITIES = ("load_plus", "pressure_max_plus", "pressure_min_plus", "friction_plus")
+
+
+@pytest.mark.parametrize("name", ["inertial_reynolds", "film", "film_slope"])
+def test_what_is_stated_over_grooves_holds_and_is_not_far_too_wide(name):
+    """The truths are plane flow by finite elements; before these bounds a load was stated 7 to 20 times too wide."""
+    ratios = {quantity: [] for quantity in QUANTITIES}
+    for one in read(path_of(STORED, "plane_grooves")).values():
+        scene, model = read_scene(one.scene), find("pocket", name)
+        result = with_errors(model.solve(scene), scene, model, models("pocket"))
+        values = {quantity: value for quantity, (value, _) in one.truth.items()}
+        for quantity, own in ratios.items():
+            stated = stated_errors(result)[quantity].error * KIND.scale(values, quantity)
+            own.append(stated / abs(result[quantity].value - values[quantity]))
+    assert sum(ratio >= 1 for own in ratios.values() for ratio in own) >= 0.9 * sum(map(len, ratios.values()))
+    assert median(ratio for own in ratios.values() for ratio in own) <= 6
