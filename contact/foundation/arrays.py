@@ -15,6 +15,9 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 """An array of truth values, of any shape."""
 
+ROUNDING = 1e-12
+"""Largest of some numbers, over the largest of those from which they follow, at which all are rounding."""
+
 OVERFLOW_REMEDY = "check the units, or make the scene less extreme"
 """The remedy where numbers overflow though each value of a scene is in its range."""
 
@@ -78,3 +81,12 @@ def unmasked(place: str, values: ArrayLike) -> NDArray[Any]:
     if isinstance(values, np.ma.MaskedArray) and (count := np.count_nonzero(np.ma.getmaskarray(values))):
         raise InputError(f"{place}: {count} of {values.size} points are masked; fill them first")
     return np.asarray(values)
+
+
+def beyond_rounding(values: Array, before: Array) -> Array:
+    """The values, or zeros where all of them are rounding of the numbers from which they were subtracted or averaged.
+
+    >>> beyond_rounding(np.array([1e-22, -3e-22]), np.array([1e-6, 1e-6]))
+    array([0., 0.])
+    """
+    return values if np.abs(values).max() > ROUNDING * np.abs(before).max() else np.zeros_like(values)

@@ -5,7 +5,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.polynomial import legendre
 
-from roughfilm.contact.foundation.arrays import Array, Mask
+from roughfilm.contact.foundation.arrays import Array, Mask, beyond_rounding
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import Surface
 
@@ -67,4 +67,5 @@ def remove_form(surface: Surface, form: Form, *, ignored: Mask | None = None) ->
     coefficients[rows, columns] = np.linalg.solve(normal, right)
     shape: Array = x @ coefficients @ y.T
     heights = np.where(surface.invalid, 0.0, surface.heights - shape)
+    heights = beyond_rounding(heights, surface.heights)
     return surface.with_heights(heights, periodic=surface.periodic and order == 0)

@@ -2,6 +2,7 @@
 
 import scipy
 
+from roughfilm.contact.foundation.arrays import beyond_rounding
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces.surface import Surface
 
@@ -27,4 +28,5 @@ def smooth(surface: Surface, points: int) -> Surface:
         raise InputError(f"smoothing: got {points} points; give an odd number up to the number of pixels, such as 3")
     if surface.invalid.any():
         raise InputError(f"smoothing: {surface.invalid.sum()} pixels are invalid; fill them first")
-    return surface.with_heights(scipy.ndimage.uniform_filter(surface.heights, size=points, mode="wrap"))
+    heights = scipy.ndimage.uniform_filter(surface.heights, size=points, mode="wrap")
+    return surface.with_heights(beyond_rounding(heights, surface.heights))

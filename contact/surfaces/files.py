@@ -22,6 +22,15 @@ from roughfilm.contact.surfaces.surface import Surface, check_point_count
 POINT_BYTES = 64
 """Peak memory for each point of a surface that is read, bytes."""
 
+ARGUMENTS = {
+    'set read.spacing = ["1 um", "1 um"] in the recipe': "give spacing=1e-6, in m",
+    'set read.height_unit = "um" in the recipe': 'give height_unit="um"',
+    "as in read.channel=": "as in channel=",
+    "leave out the recipe's table read": "leave out spacing, channel, height_unit and invalid",
+    "leave out read.channel": "leave out channel",
+}
+"""The remedies of a reader by keys of a recipe, and by arguments of a function."""
+
 SAME = 1e-9
 """Relative difference up to which a height is one that marks missing points."""
 
@@ -159,6 +168,14 @@ def _steps(path: Path, measurement: Measurement, unit: str | None) -> tuple[floa
         return tuple(step * to_si(f"1 {unit}", "m") for step in measurement.steps)
     except ValueError as error:
         raise InputError(f"{path}: heights: {error}") from None
+
+
+def by_arguments(error: InputError) -> InputError:
+    """The error of a reader whose remedies name arguments of a function in place of keys of a recipe."""
+    message = str(error)
+    for key, argument in ARGUMENTS.items():
+        message = message.replace(key, argument)
+    return InputError(message)
 
 
 def has_header(path: Path) -> bool:

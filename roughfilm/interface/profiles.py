@@ -9,7 +9,7 @@ from roughfilm.contact.fitting import profile as fitting
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.foundation.ranges import in_range
 from roughfilm.contact.preparation.profile import prepare_profile
-from roughfilm.contact.surfaces.files import read_measurement
+from roughfilm.contact.surfaces.files import by_arguments, read_measurement
 from roughfilm.contact.surfaces.profile import Profile
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.contact.synthetic.description import make
@@ -63,13 +63,16 @@ def read_profile(
     if not isinstance(path, str | os.PathLike):
         raise InputError(f"path: got {type(path).__name__}; name a file; heights in an array need no reading")
     step = None if spacing is None else in_range("spacing", spacing, "m")
-    found = read_measurement(
-        Path(path),
-        channel=channel,
-        spacing=None if step is None else (step, step),
-        height_unit=height_unit,
-        invalid=codes_of(invalid),
-    )
+    try:
+        found = read_measurement(
+            Path(path),
+            channel=channel,
+            spacing=None if step is None else (step, step),
+            height_unit=height_unit,
+            invalid=codes_of(invalid),
+        )
+    except InputError as error:
+        raise by_arguments(error) from None
     if isinstance(found, Surface):
         raise InputError(
             f"{path}: is a surface of {found.shape[0]} x {found.shape[1]} points; read it by read_surface()"

@@ -133,7 +133,10 @@ def read_surface(
             raise InputError(f"{name}: got {given[name]!r}; a described surface is complete, leave it out")
         return make(read_description(file))
     pair = None if spacing is None else _pair(spacing)
-    surface = files.read_surface(file, channel=channel, spacing=pair, height_unit=height_unit, invalid=codes)
+    try:
+        surface = files.read_surface(file, channel=channel, spacing=pair, height_unit=height_unit, invalid=codes)
+    except InputError as error:
+        raise files.by_arguments(error) from None
     for sentence in (*implausible(surface, file), *repeated_extreme(surface, file)):
         warnings.warn(sentence, UserWarning, stacklevel=2)
     return surface

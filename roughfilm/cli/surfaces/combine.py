@@ -23,6 +23,7 @@ from roughfilm.contact.registration.combine import (
     difference,
     usual_entries,
 )
+from roughfilm.contact.surfaces import files
 from roughfilm.contact.surfaces.store import MARK, save_surface
 from roughfilm.contact.surfaces.surface import Surface
 from roughfilm.interface.surfaces import read_surface
@@ -128,7 +129,8 @@ def _shown(combined: Combined, names: tuple[str, str]) -> Iterator[Table | str]:
 
 
 def _read(file: Path, recipe: Recipe) -> Surface:
-    return read_surface(file, **dict(recipe.read))
+    described = file.suffix.lower() == ".toml"
+    return read_surface(file, **dict(recipe.read)) if described else files.read_surface(file, **dict(recipe.read))
 
 
 def _shift(text: str | None, operation: Operation) -> Shift:

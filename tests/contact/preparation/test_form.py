@@ -5,6 +5,8 @@ import pytest
 
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.preparation.form import remove_form
+from roughfilm.contact.preparation.prepare import prepare
+from roughfilm.contact.preparation.recipe import Recipe
 from roughfilm.contact.surfaces.surface import Surface
 
 NX, NY = 37, 24
@@ -67,3 +69,12 @@ def test_points_on_one_line_do_not_determine_a_tilt():
     invalid[:, 5] = False
     with pytest.raises(InputError, match=r"^form: the valid points do not determine a form 'tilt'; choose"):
         remove_form(surface(FORMS["tilt"], invalid), "tilt")
+
+
+@pytest.mark.parametrize(
+    "heights",
+    [np.full((16, 16), 1e-6), np.add.outer(3e-7 * np.arange(20.0), 1e-7 * np.arange(12.0)), np.eye(3) * 1e-7],
+)
+def test_what_rounding_leaves_of_a_constant_or_tilted_surface_is_no_roughness_and_no_wrong_unit(heights):
+    with pytest.raises(InputError, match=r"all heights are the same once its form is removed"):
+        prepare(Surface(heights=heights, spacing=(1e-6, 1e-6)), Recipe())

@@ -5,7 +5,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+import roughfilm as rf
+from roughfilm.cli.main import app
 from roughfilm.contact.foundation.errors import InputError
 from roughfilm.contact.surfaces import store as surface_store
 from roughfilm.contact.surfaces.files import read_surface
@@ -237,3 +240,17 @@ def test_a_channel_is_for_files_that_have_some(tmp_path):
     np.save(tmp_path / "s.npy", np.eye(4))
     with pytest.raises(InputError, match=r"has no channels; leave out read\.channel"):
         read_surface(tmp_path / "s.npy", spacing=SPACING, channel="Raw")
+
+
+@pytest.mark.parametrize("read", [rf.read_surface, rf.read_profile])
+def test_functions_name_their_arguments_and_commands_the_keys_of_a_recipe(tmp_path, read):
+    np.save(tmp_path / "bare.npy", np.random.default_rng(1).standard_normal((12, 14)))
+    (tmp_path / "bare.csv").write_text("1,2,4\n2,3,7\n1,1,5\n")
+    with pytest.raises(InputError, match=r"gives no spacing of its points; give spacing=1e-6, in m$"):
+        read(tmp_path / "bare.npy")
+    with pytest.raises(InputError, match=r'gives no unit of its heights; give height_unit="um"$'):
+        read(tmp_path / "bare.csv", spacing=1e-6)
+    with pytest.raises(InputError, match=r"has no channels; leave out channel$"):
+        read(tmp_path / "bare.npy", channel="z")
+    done = CliRunner().invoke(app, ["combine", str(tmp_path / "bare.npy"), str(tmp_path / "bare.npy")])
+    assert "set read.spacing" in done.output

@@ -1,10 +1,12 @@
 """A unit that cannot be right is named with its value, range and remedy, and nothing is altered."""
 
 import re
+import warnings
 
 import numpy as np
 import pytest
 
+import roughfilm as rf
 from roughfilm.contact.preparation.prepare import prepare
 from roughfilm.contact.preparation.recipe import Recipe
 from roughfilm.contact.surfaces.plausibility import implausible, repeated_extreme
@@ -119,3 +121,38 @@ def test_a_code_is_said_before_the_form_is_removed():
     heights[5:25, 20:40] = -9.999e-3
     warnings = prepare(Surface(heights=heights, spacing=(2.5e-6, 2.5e-6)), Recipe()).warnings
     assert sum("share the lowest height, -0.009999 m" in one for one in warnings) == 1
+
+
+def far_apart(folder, suffix, step):
+    """A file of heights whose points are so far apart, m, with the arguments that its reader needs."""
+    path = folder / f"map{suffix}"
+    heights = np.random.default_rng(1).standard_normal((12, 14))
+    if suffix == ".npy":
+        np.save(path, heights * step / 20)
+        return path, {"spacing": step}
+    if suffix == ".csv":
+        rows = "\n".join(",".join(f"{1e9 * z * step / 20:.6g}" for z in row) for row in heights)
+        path.write_text(f"# spacing: {1e9 * step:.6g} nm, {1e9 * step:.6g} nm; heights: nm\n{rows}\n")
+        return path, {}
+    tifffile = pytest.importorskip("tifffile")
+    tifffile.imwrite(path, (1e9 * heights * step / 20).astype("f4"))
+    return path, {"spacing": step, "height_unit": "nm"}
+
+
+@pytest.mark.parametrize("suffix", [".npy", ".csv", ".tif"])
+@pytest.mark.parametrize(("step", "shown"), [(2e-3, "0.002 x 0.002 m"), (4e-11, "4e-11 x 4e-11 m"), (1e-6, None)])
+def test_pixels_beyond_a_millimetre_and_below_an_atom_are_named_for_every_reader(tmp_path, suffix, step, shown):
+    path, arguments = far_apart(tmp_path, suffix, step)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        rf.read_surface(path, **arguments)
+    said = [str(one.message) for one in caught if "pixel spacing" in str(one.message)]
+    assert len(said) == (shown is not None)
+    assert all(shown in one and "set read.spacing" in one for one in said)
+
+
+@pytest.mark.measured
+def test_a_file_of_an_instrument_with_pixels_of_a_third_of_a_metre_is_doubted(measured_file):
+    pytest.importorskip("SurfaceTopography")
+    with pytest.warns(UserWarning, match=r"pixel spacing is 0.312 x 0.312 m, .*set read.spacing"):
+        rf.read_surface(measured_file("areal.nms"))
