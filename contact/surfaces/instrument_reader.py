@@ -32,6 +32,9 @@ HEIGHT_BYTES, OTHER_BYTES = 8, 1_000_000
 MAX_NAMED = 12
 """Largest number of channels that a message names."""
 
+MAX_QUOTED = 120
+"""Number of letters of a reader's own message that are quoted."""
+
 SIGNATURE_BYTES = 512
 """Number of the first bytes of a file by which its format is recognised."""
 
@@ -82,13 +85,18 @@ def _opened(path: str, most: int) -> Any:
         except (ImportError, MemoryError):
             raise
         except Exception as error:  # the readers raise many kinds of error for damaged files
-            words = " ".join(str(error).split())[:120]
-            fault = f"cannot be read as {reader.format()} ({type(error).__name__}: {words}); it may be damaged"
+            fault = f"cannot be read as {reader.format()} ({_words(error)}); it may be damaged"
         if archive is not None:
             archive.seek(0)
         if number < len(own) and reason is None:
             reason = fault
     raise InputError(reason or UNKNOWN_FORMAT)
+
+
+def _words(error: Exception) -> str:
+    """The kind of an error and its message in one short line, which may quote bytes of the file, without controls."""
+    message = "".join(letter if letter.isprintable() else " " for letter in str(error))
+    return f"{type(error).__name__}: {' '.join(message.split())[:MAX_QUOTED]}"
 
 
 def _read(path: str, channel: str | None, most: int) -> tuple[dict[str, Any], Any]:
@@ -162,8 +170,7 @@ def main(request: dict[str, Any], out: BinaryIO) -> None:
     except MemoryError:
         header, heights = {"fault": "needs more memory than a file of its length should; it may be damaged"}, None
     except Exception as error:  # the readers raise many kinds of error for damaged files
-        reason = " ".join(str(error).split())[:120]
-        header, heights = {"fault": f"cannot be read ({type(error).__name__}: {reason}); it may be damaged"}, None
+        header, heights = {"fault": f"cannot be read ({_words(error)}); it may be damaged"}, None
     out.write(json.dumps(header).encode() + b"\n")
     if heights is not None:
         out.write(np.ascontiguousarray(heights).data)

@@ -265,3 +265,13 @@ def test_pages_of_a_tiff_are_channels_and_colours_are_no_heights(tmp_path):
     tifffile.imwrite(tmp_path / "rgb.tif", np.zeros((8, 9, 3), dtype="u1"), photometric="rgb")
     with pytest.raises(InputError, match="is an image without a page of heights"):
         read_surface(tmp_path / "rgb.tif")
+
+
+def test_controls_in_a_damaged_file_do_not_reach_the_terminal(tmp_path):
+    """The reader of Alicona quotes a key of the file, here one with the sequence that clears a terminal."""
+    path = tmp_path / "bad.al3d"
+    path.write_bytes(b"AliconaImaging\x00\r\n" + b"\x1b[2J\x07\x9b\x00" * 40)
+    with pytest.raises(InputError) as caught:
+        read_surface(path)
+    assert str(caught.value).isprintable()
+    assert "cannot be read as al3d" in str(caught.value)
