@@ -17,8 +17,8 @@ def read_tiff(path: str, channel: str | None, most: int) -> tuple[str, Array]:
     Raises
     ------
     InputError
-        If the file has no page of heights or no such page, holds several and none is named, or claims more points than
-        ``most``.
+        If the file has no page of heights or no such page, holds several and none is named, claims more points than
+        ``most``, or is compressed and the package imagecodecs is not there.
     """
     import tifffile  # which SurfaceTopography needs
 
@@ -39,4 +39,10 @@ def read_tiff(path: str, channel: str | None, most: int) -> tuple[str, Array]:
         points = pages[name].shape[::-1]
         if points[0] * points[1] > most:
             raise InputError(f"claims {points[0]} x {points[1]} points; at most {most} fit a file of its length")
-        return name, np.asarray(pages[name].asarray(), dtype=np.float64).T
+        try:
+            return name, np.asarray(pages[name].asarray(), dtype=np.float64).T
+        except ValueError as error:
+            if "imagecodecs" not in str(error):
+                raise
+            how = pages[name].compression.name
+            raise InputError(f"is compressed by {how}, which is not read here; save it without compression") from None

@@ -9,11 +9,13 @@ import subprocess
 import sys
 import time
 import tracemalloc
+from importlib.util import find_spec
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
+from PIL import Image
 
 from roughfilm.contact.foundation.child_processes import terminate_with_parent
 from roughfilm.contact.foundation.errors import InputError, UnavailableError
@@ -262,6 +264,10 @@ def test_pages_of_a_tiff_are_channels_and_colours_are_no_heights(tmp_path):
     assert found.heights == pytest.approx(1e-6 * pages[1].T.astype(float))
     with pytest.raises(InputError, match=r"has no channel '3'; its pages are"):
         read_surface(tmp_path / "two.tif", channel="3")
+    Image.fromarray(pages[0]).save(tmp_path / "lzw.tif", compression="tiff_lzw")
+    if find_spec("imagecodecs") is None:
+        with pytest.raises(InputError, match="is compressed by LZW, which is not read here; save it"):
+            read_surface(tmp_path / "lzw.tif")
     tifffile.imwrite(tmp_path / "rgb.tif", np.zeros((8, 9, 3), dtype="u1"), photometric="rgb")
     with pytest.raises(InputError, match="is an image without a page of heights"):
         read_surface(tmp_path / "rgb.tif")
