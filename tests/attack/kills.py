@@ -239,8 +239,8 @@ def _finished(work: Path) -> dict[str, Any]:
 def _lost(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[Finding]:
     findings = [Finding(kind="lost", seen=name) for name in before if name not in after]
     for name in before.keys() & after.keys():
-        if before[name] != after[name]:
-            unlike = "; ".join(outputs.differences(before[name], after[name], costs=True))
+        unlike = "; ".join(outputs.differences(before[name], after[name], costs=True))  # two NaN are alike
+        if unlike:
             findings.append(Finding(kind="changed", seen=f"{name}: {unlike}"))
     return findings
 
