@@ -62,6 +62,7 @@ def write_page(scene: Bearing, entries: Mapping[str, Any], curves: Sequence[Dyna
         },
         coefficients=svg(figures.coefficients(scene, curves, dimensionless=False)),
         dimensionless=svg(figures.coefficients(scene, curves, dimensionless=True)) if shaft else None,
+        over_frequency=svg(figures.over_frequency(scene, curves)) if shaft else None,
         places=svg(figures.places(scene, curves)) if shaft else None,
         stability=svg(figures.stability(scene, curves)) if shaft else None,
         heated="temperature" in first.numbers,

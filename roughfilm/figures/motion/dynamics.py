@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from scipy.interpolate import PchipInterpolator
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.figures.base import new_figure
@@ -14,7 +15,9 @@ from roughfilm.figures.ticks import plain_logarithmic
 from roughfilm.rom.bearing.dynamics.point import ENTRIES
 from roughfilm.rom.bearing.dynamics.store import dimensionless_of
 from roughfilm.rom.bearing.dynamics.sweep import DynamicCurve
+from roughfilm.rom.bearing.dynamics.whirl import RATIOS_OF_MEMORY
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.words.dynamics import own_point
 from roughfilm.words.stribeck import speed_scale
 
 STYLES = ("-", (0, (6, 1)), (0, (4, 1, 1, 1)), (0, (1, 1)))
@@ -71,6 +74,40 @@ def coefficients(scene: Bearing, curves: Sequence[DynamicCurve], *, dimensionles
         axes.axvline(scale.factor * abs(scene.motion.speed), color="0.35", linewidth=1, linestyle="--", zorder=0)
     if shaft:
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
+    return figure
+
+
+def over_frequency(scene: Bearing, curves: Sequence[DynamicCurve]) -> Figure:
+    """The entries of stiffness and damping of a shaft at its own speed, over the frequency of its motion.
+
+    Points are frequencies that are solved, with monotone cubics between them. A vertical line marks the frequency of
+    the whirl at the threshold of stability, and a band the frequencies at which those of slow motions hold within 5 %.
+    """
+    figure, panels = new_figure((11.4, 4.4), 1, 2)
+    ratios = np.geomspace(RATIOS_OF_MEMORY[0], RATIOS_OF_MEMORY[-1], 400)
+    points = [own_point(scene, curve) for curve in curves]
+    per_width = "/m" if scene.wide else ""
+    for axes, (matrix, unit, factor) in zip(
+        panels, (("stiffness", "N/µm", 1e-6), ("damping", "kN·s/m", 1e-3)), strict=True
+    ):
+        for point, style in zip(points, itertools.cycle(STYLES), strict=False):
+            for entry, colour in zip(ENTRIES[2], COLOURS, strict=False):
+                known = factor * np.array(point.spectrum[f"{matrix}{entry}"])
+                label = entry[1:] if point is points[0] else None
+                line = PchipInterpolator(RATIOS_OF_MEMORY, known)(ratios)
+                axes.plot(ratios, line, color=colour, linestyle=style, linewidth=1.4, label=label)
+                axes.plot(RATIOS_OF_MEMORY, known, color=colour, linestyle="none", marker="o", markersize=2.5)
+            whirl = point.numbers["whirl_ratio"]
+            if whirl > 0:
+                name = "whirl at the threshold" if point is points[0] else None
+                axes.axvline(whirl, color="black", linestyle=style, linewidth=0.9, label=name, zorder=0)
+        slow = min(point.numbers["slow_ratio"] for point in points)
+        axes.axvspan(ratios[0], np.clip(slow, ratios[0], ratios[-1]), color="0.5", alpha=0.12, linewidth=0, zorder=-1)
+        axes.axvline(1.0, color="0.35", linewidth=1, linestyle="--", zorder=0)
+        axes.set(xscale="log", xlim=(ratios[0], ratios[-1]), xlabel="frequency of the motion over the rotational speed")
+        plain_logarithmic(axes.xaxis)
+        axes.set_ylabel(f"{matrix}, {unit}{per_width}")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=5)
     return figure
 
 
