@@ -1,12 +1,13 @@
 """The stability of a rigid rotor in bearings with given stiffness and damping."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
 from scipy.linalg import eig
 from scipy.optimize import brentq
 
@@ -24,6 +25,10 @@ comes and goes with a period of about 1."""
 
 BEYOND = np.geomspace(1.0, 1e6, 61)[1:]
 """Frequencies over the largest of these at which K and B are taken to be those at it."""
+
+BETWEEN, ASIDE = 50, 5
+"""Number of parts of the interval between two ratios in which K and B are interpolated, and how many of them away
+from a limit of stability that is found so they are computed, too."""
 
 WHIRL_TOLERANCE = 1e-9
 """Error of a whirl ratio at which its search stops."""
@@ -105,22 +110,21 @@ def whirl_of(at: At, speed: float, ratios: Array = RATIOS) -> Whirl:
     Source: Lund 1987, doi:10.1115/1.3261324.
     """
     found = [at(float(ratio) * speed) for ratio in ratios]
-    stiffness, damping = found[-1]
+    ratios = np.union1d(ratios, _around_roots(ratios, found, speed))
+    found = [at(float(ratio) * speed) for ratio in ratios]
+    (stiffness, damping), (fine, *between) = found[-1], _between(ratios, found)
     fast = [stiffness + 1j * beyond * ratios[-1] * speed * damping for beyond in BEYOND]
-    between = [k + 1j * ratio * speed * b for ratio, (k, b) in zip(ratios, found, strict=True)]
-    arguments = np.unwrap(np.angle([np.linalg.det(z) for z in (found[0][0], *between, *fast)]))
+    slow = between[0] + 1j * speed * fine[:, None, None] * between[1]
+    arguments = np.unwrap(np.angle(np.linalg.det([found[0][0], *slow, *fast])))
     if round(1 - float(arguments[-1] - arguments[0]) / math.pi) != 0:
         return Whirl(inverse_mass=math.inf, frequency_squared=math.nan)
 
     def excess(ratio: float) -> float:
-        k, b = at(ratio * speed)
-        return _detuned(k, b) - float(np.linalg.det(b)) * (ratio * speed) ** 2
+        stiffness, damping = at(ratio * speed)
+        return float(_excess(stiffness, damping, ratio * speed))
 
-    values = [
-        _detuned(k, b) - float(np.linalg.det(b)) * (r * speed) ** 2 for r, (k, b) in zip(ratios, found, strict=True)
-    ]
     whirls = []
-    for (low, below), (high, above) in pairwise(zip(map(float, ratios), values, strict=True)):
+    for (low, below), (high, above) in pairwise((ratio, excess(ratio)) for ratio in map(float, ratios)):
         if below * above < 0:
             frequency = float(brentq(excess, low, high, xtol=WHIRL_TOLERANCE)) * speed
             k = _whirl_stiffness(*at(frequency))
@@ -130,6 +134,38 @@ def whirl_of(at: At, speed: float, ratios: Array = RATIOS) -> Whirl:
         return max(whirls, key=lambda whirl: whirl.inverse_mass)
     squared = min(_frequency_squared(*found[0]), 0.0)
     return Whirl(inverse_mass=squared / abs(_whirl_stiffness(*found[0])), frequency_squared=squared)
+
+
+def _excess(stiffness: Array, damping: Array, frequency: float | Array) -> Array:
+    """(tr B)² ((Kxx - k)(Kyy - k) - Kxy Kyx - ν² det B), 0 at the limit of stability, of matrices of shape (..., 2, 2).
+
+    With the factor it has no pole where the trace of B, by which k is divided, changes its sign.
+    """
+    trace, square = np.trace(damping, axis1=-2, axis2=-1), np.asarray(frequency) ** 2
+    kxx, kxy, kyx, kyy = (stiffness[..., i, j] for i in (0, 1) for j in (0, 1))
+    bxx, bxy, byx, byy = (damping[..., i, j] for i in (0, 1) for j in (0, 1))
+    above = kxx * byy + kyy * bxx - kxy * byx - kyx * bxy
+    detuned = (kxx * trace - above) * (kyy * trace - above) - kxy * kyx * trace**2
+    return np.asarray(detuned - trace**2 * square * (bxx * byy - bxy * byx))
+
+
+def _around_roots(ratios: Array, found: Sequence[Matrices], speed: float) -> Array:
+    """Ratios on both sides of the limits of stability between given ratios, by interpolation.
+
+    Two limits between neighbouring ratios leave no change of sign at these.
+    """
+    fine, stiffness, damping = _between(ratios, found)
+    signs = np.sign(_excess(stiffness, damping, fine * speed))
+    roots = np.flatnonzero(signs[1:] != signs[:-1])
+    aside = [np.interp(np.arange(fine.size)[roots] + side, np.arange(fine.size), fine) for side in (-ASIDE, 1 + ASIDE)]
+    return np.concatenate(aside)
+
+
+def _between(ratios: Array, found: Sequence[Matrices]) -> tuple[Array, Array, Array]:
+    """Ratios at and between given ones, and K and B there by monotone cubics, each of shape (n, 2, 2)."""
+    fine = np.concatenate([*(np.linspace(*pair, BETWEEN, endpoint=False) for pair in pairwise(ratios)), ratios[-1:]])
+    stiffness, damping = PchipInterpolator(ratios, np.array(found))(fine).swapaxes(0, 1)
+    return fine, stiffness, damping
 
 
 def grows(stiffness: Array, damping: Array, speed: float) -> bool:

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from roughfilm.rom.bearing.dynamics.whirl import Whirl, condensed, grows, rigid_whirl, whirl_of
+from roughfilm.rom.bearing.dynamics.whirl import RATIOS_OF_MEMORY, Whirl, condensed, grows, rigid_whirl, whirl_of
 
 K = np.array([[1.5, 7.3], [-2.2, 1.5]])
 B = np.array([[14.7, 1.6], [1.6, 4.5]])
@@ -139,3 +139,41 @@ def test_pads_that_do_not_move_leave_the_whirl_of_the_shaft():
             assert whirl.frequency_squared == pytest.approx(rigid.frequency_squared, rel=1e-7)
         else:
             assert whirl.inverse_mass <= 0
+
+
+def delayed(seed):
+    """Stiffness and damping at a frequency of a film, a part of whose force follows within a turn, at the speed 1."""
+    rng = np.random.default_rng(seed)
+    stiffness, damping = np.array([[2.6, 2.3], [-9.2, 25.8]]), np.array([[1.8, -3.5], [-3.5, 29.0]])
+    lag, late = rng.uniform(2, 8), rng.normal(size=(2, 2)) * [[2.0, 4.0], [20.0, 40.0]]
+
+    def impedance(frequency):
+        follows = np.exp(-1j * lag * frequency) / (1 + 2j * frequency) ** 3
+        return stiffness + 1j * frequency * damping + late * follows
+
+    return impedance, lambda frequency: (impedance(frequency).real, impedance(frequency).imag / frequency)
+
+
+def growing(impedance, mass):
+    """The number of growing motions of a mass, by the turns of det(Z - M ν²) from slow to fast motions."""
+    frequencies = np.concatenate([np.linspace(1e-4, 20, 40001), np.geomspace(20, 1e5, 4001)[1:]])
+    each = frequencies[:, None, None]
+    turned = np.unwrap(np.angle(np.linalg.det(impedance(each) - mass * each**2 * np.eye(2))))
+    return round((2 * math.pi - float(turned[-1] - turned[0])) / math.pi)
+
+
+CLOSE = (19, 78, 195, 267, 407, 440, 466, 504, 592)
+"""Seeds with two limits of stability between neighbouring ratios."""
+
+
+@pytest.mark.parametrize("seed", [*range(12), *CLOSE])
+def test_a_rotor_on_a_film_with_memory_is_stable_exactly_below_the_critical_mass(seed):
+    impedance, at = delayed(seed)
+    whirl = whirl_of(at, 1.0, RATIOS_OF_MEMORY)
+    if math.isinf(whirl.inverse_mass):
+        assert growing(impedance, 1e-3) > 0
+    elif whirl.inverse_mass > 0:
+        mass = 1 / whirl.inverse_mass
+        assert [growing(impedance, part * mass) > 0 for part in (0.3, 0.6, 0.97, 1.03)] == [False, False, False, True]
+    else:
+        assert not any(growing(impedance, mass) for mass in (1e-2, 1.0, 1e2))
