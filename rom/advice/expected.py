@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import chain
 
-from roughfilm.contact.foundation.timing import claimed_costs, one_time
+from roughfilm.contact.foundation.timing import claimed_costs, imports_apart, one_time
 from roughfilm.rom.advice.estimates import AdviceTask, a_priori
 from roughfilm.rom.advice.laws import lawful, table
 from roughfilm.rom.advice.stated import BY_CORRECTION, BY_LAWS, ENTRY, StatedError, entries_of_errors, stated_errors
@@ -41,7 +41,7 @@ def with_errors(
     known : by quantity, the errors that other runs or the advice give.
     """
     kind = kind_of_scene(scene)
-    with one_time("errors"):
+    with one_time("errors"), imports_apart():
         expected = expected_errors(scene, model, result, models)
     errors = {name: error for name, error in expected.items() if name in result.quantities}
     stated = {} if result.outside else known or {}

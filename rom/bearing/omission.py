@@ -3,12 +3,16 @@
 These are heating, shear thinning, the length of ridges, and inertia or, of models with it, cavitation and slope.
 """
 
+from functools import lru_cache
+
+from roughfilm.contact.foundation.errors import ConvergenceError
 from roughfilm.rom.bearing.effects.inertia import inertia_obstacle
 from roughfilm.rom.bearing.effects.viscosity import viscosity_omitted
 from roughfilm.rom.bearing.effects.waves import waves_omitted
 from roughfilm.rom.bearing.effects.wide_pad import wide_pad
 from roughfilm.rom.bearing.equilibrium.expected import expected_film, expected_scene
 from roughfilm.rom.bearing.inertia import inertia
+from roughfilm.rom.bearing.keyed import KeyedScene, keyed
 from roughfilm.rom.bearing.numbers import bearing_numbers
 from roughfilm.rom.bearing.quantities import bearing_quantities
 from roughfilm.rom.bearing.scene import Bearing
@@ -136,9 +140,24 @@ def inertia_omitted(scene: Bearing, quantity: str) -> Omission | None:
 
 def _first_order(scene: Bearing, quantity: str) -> float:
     """The relative change of load or friction by inertia to first order, of the film with cavitation."""
-    scene = expected_scene(scene)
-    solution = solve(scene.problem(), (CELLS[scene.wide],) * 2)
+    found = _first_orders(keyed(scene))
+    if isinstance(found, ConvergenceError):
+        raise found
+    return found[quantity]
+
+
+@lru_cache(maxsize=16)
+def _first_orders(question: KeyedScene) -> dict[str, float] | ConvergenceError:
+    """The relative changes of load and friction by inertia to first order, from one film; its error if it fails."""
+    try:
+        scene = expected_scene(question.scene)
+        solution = solve(scene.problem(), (CELLS[scene.wide],) * 2)
+    except ConvergenceError as error:
+        return error
     width = 1.0 if scene.geometry.width is None else scene.geometry.width
     values = {name: one.value for name, one in bearing_quantities(scene, solution).items()}
-    size = float(kind_of_scene(scene).scale(values, quantity))
-    return abs(getattr(inertia(scene, solution), INERTIA_FIELDS[quantity])) / width / size if size > 0 else 0.0
+    kind, found, changes = kind_of_scene(scene), inertia(scene, solution), {}
+    for quantity, name in INERTIA_FIELDS.items():
+        size = float(kind.scale(values, quantity))
+        changes[quantity] = abs(getattr(found, name)) / width / size if size > 0 else 0.0
+    return changes

@@ -209,6 +209,8 @@ def _solved(scene: Bearing, models: Sequence[Model[Bearing]], cells: int) -> tup
                 results[model.name] = model.solve(scene, Request(resolution=cells))
         except (InputError, ConvergenceError) as error:
             failures[model.name] = str(error)
+            if model is models[0]:  # nothing to compare the others with
+                break
     return results, failures
 
 

@@ -190,3 +190,22 @@ def test_the_cheapest_model_that_is_accurate_enough(speed, within, enough):
 def test_each_effect_that_is_left_out_is_named(kept, words):
     films = CoarseFilms(models=(), results={}, failures={}, smooth=False, absent=frozenset())
     assert films.left_out(find("bearing", "across"), replace(ISOTHERMAL, keeps=frozenset(kept))) == words
+
+
+def test_where_the_film_without_an_effect_fails_no_other_is_solved(monkeypatch):
+    solved = []
+
+    def counting(model, compute):
+        def counted(*args, **more):
+            solved.append(model.name)
+            return compute(*args, **more)
+
+        return replace(model, compute=counted)
+
+    def failing(*_, **__):
+        raise ConvergenceError("no steady film was found")
+
+    ladder = [counting(ISOTHERMAL, failing), counting(BALANCE, BALANCE.compute)]
+    monkeypatch.setattr("roughfilm.rom.bearing.effects.viscosity.ladder", lambda *_, **__: ladder)
+    assert viscosity_omitted(wedge(2.7), ISOTHERMAL, "load_per_width") is None
+    assert set(solved) == {"reynolds_cavitating"}
