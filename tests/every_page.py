@@ -11,6 +11,7 @@ from small_scenes import CONTACT, SEAL, SURFACE
 from typer.testing import CliRunner
 from window_sets import surface_of_seed, write_set
 
+from roughfilm.batch import jobs
 from roughfilm.charts.families import FAMILIES
 from roughfilm.charts.family import Ask, ChartFamily, Measured, ReferenceValue
 from roughfilm.cli.first_steps import compare
@@ -220,5 +221,6 @@ def made(kind: str, folder: Path, look: Callable[[base.Figure], None]) -> Path:
             return found
 
         patch.setattr(base, "readings", seen)
+        patch.setattr(jobs, "REPEATS", 1)
         patch.chdir(folder)
         return KINDS[kind](folder)

@@ -8,12 +8,22 @@ from collections.abc import Iterator
 import pytest
 from empty_figures import empty_figures
 
+from roughfilm.batch import jobs
+
 
 @pytest.fixture(scope="module", autouse=True)
 def _empty() -> Iterator[pytest.MonkeyPatch]:
     with pytest.MonkeyPatch.context() as patch:
         empty_figures(patch)
         yield patch
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _once() -> Iterator[None]:
+    """A quick model of a comparison is solved once, as its time is looked at nowhere here."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(jobs, "REPEATS", 1)
+        yield
 
 
 @pytest.fixture

@@ -10,7 +10,6 @@ import pytest
 from places import SCENES
 from typer.testing import CliRunner
 
-from roughfilm.batch import jobs
 from roughfilm.cli.first_steps import compare
 from roughfilm.cli.main import app
 from roughfilm.ladder import models
@@ -44,7 +43,6 @@ def compared(request, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         inside = tuple(model for model in models() if not model.outside)
         patch.setattr(compare, "models", partial(of_kind, inside))
-        patch.setattr(jobs, "REPEATS", 1)
         text = run(*command)
         printed = json.loads(run(*command, "--json").splitlines()[-1])
     return text, printed, (place / "study" / "report.html").read_text(encoding="utf-8")
