@@ -5,9 +5,10 @@ import math
 import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
-from roughfilm.contact.foundation.errors import ConvergenceError, InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.free.idle import idle_pads
+from roughfilm.rom.bearing.free.unbalanced import remedy
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.bearing.geometry.pivoted import Tilting
@@ -92,6 +93,25 @@ def closed(film: FreeFilm, instant: Instant, force: Array) -> InputError | None:
     return InputError(
         f"load: got {_loaded(film, force)}; no film above {least:.2g} m carries it; "
         f"{', '.join(remedies[:-1])}, or {remedies[-1]}"
+    )
+
+
+def touching(film: FreeFilm, instant: Instant) -> ConvergenceError | None:
+    """The reason why a film has no walls apart, which are so at the nodes of its grid; else None.
+
+    Arcs are curved between the nodes, and at the end of a pad the film of a node is the mean of the pad and the gap.
+    """
+    geometry = film.scene.geometry
+    if not isinstance(geometry, Lobes) or film.solved.contact is not None:
+        return None
+    least = geometry.at(instant.place).least_film
+    if least > 0:
+        return None
+    return ConvergenceError(
+        f"load: the walls touch between the nodes of the grid, where the film is {least:.3g} m thick; "
+        f"{remedy(film.scene)}",
+        outcome=Outcome.STALLED,
+        iterations=instant.iterations,
     )
 
 

@@ -6,14 +6,14 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Array
 from roughfilm.contact.foundation.errors import ConvergenceError, InputError, Outcome
-from roughfilm.rom.bearing.free.closed import closed, starved
+from roughfilm.rom.bearing.free.closed import closed, starved, touching
 from roughfilm.rom.bearing.free.film import FreeFilm
 from roughfilm.rom.bearing.free.idle import idle_pads, with_wedges
 from roughfilm.rom.bearing.free.unbalanced import remedy, unbalanced
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.cavitation.interpolation import carried
-from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
+from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, OverfullError, kinds, settled
 from roughfilm.rom.cavitation.motion.past import held
 from roughfilm.rom.cavitation.problem import unchanging
 
@@ -95,7 +95,7 @@ def equilibrium(film: FreeFilm, start: Instant | None, *, tolerance: float, load
                 break
             near, last = instant, min(move, 0.5 * last)
         else:
-            if closed(film, near, force) is None:
+            if closed(film, near, force) is None and touching(film, near) is None:
                 return _with_loaded_pads(film, near, force, tolerance)
     if start is None:
         start = film.first(film.wall.place)
@@ -175,8 +175,14 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
         free=np.zeros(count, dtype=bool),
         storage=(0.0, 0.0) if speed or not film.free.any() else (1 / time, held(solved, start) / time),
     )
-    instant = settled(solved, start, given, tolerance=tolerance, starved=bool(film.free.any()))
-    if not film.free.any():
+    moves, failed = bool(film.free.any()), None
+    try:
+        instant = settled(solved, start, given, tolerance=tolerance, starved=moves)
+    except ConvergenceError as error:  # in time the cavities fill
+        if moves and not isinstance(error, OverfullError):
+            raise
+        instant, failed = start, error
+    if not moves and failed is None:
         return instant
     for _ in range(MAX_STEPS):
         last = step >= LAST_STEP * time
@@ -187,6 +193,8 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
             except (ConvergenceError, FloatingPointError):
                 continue
             break
+        if following is None and failed is not None and not moves:
+            raise failed
         move = np.inf if following is None else _move(film, instant, following)
         if following is None or (move > MAX_MOVE and step > SHORT_STEP * time):
             step /= GROWTH**2
@@ -194,15 +202,15 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
                 break
             continue
         instant = following
-        if (reason := closed(film, instant, force)) is not None:
+        if moves and (reason := closed(film, instant, force)) is not None:
             idle = idle_pads(film, instant) if restarts else []
             wedges = with_wedges(film, instant, idle, tolerance=tolerance) if idle else None
             if wedges is None or solved.room(wedges.place) <= solved.room(instant.place):
                 raise reason
             return _settling(film, wedges, force, tolerance, restarts - 1)
         if last and move <= SETTLED:
-            if (reason := starved(film, instant)) is not None:
-                raise reason
+            if (refused := starved(film, instant) or touching(film, instant)) is not None:
+                raise refused
             return instant
         if shaft and float(np.hypot(*instant.place[:2])) > FARTHEST * film.wall.unit[0]:
             raise _leaves(force)

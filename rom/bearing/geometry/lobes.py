@@ -24,6 +24,9 @@ SAMPLES = 721
 JOINT = 1e-11
 """Distance of these angles from the ends of the lobe, rad."""
 
+FARTHEST = 4.0
+"""Eccentricity, over the clearance, at which a shaft that moves towards a bore has met it."""
+
 MAX_LOBES = 24
 """Largest number of lobes."""
 
@@ -171,18 +174,27 @@ class Lobes(Shaft, MovingWall):
             yield x, np.full_like(x, side)
 
     def at_film(self, film: float) -> Self:
-        """The bearing with its shaft moved along its eccentricity, or down, to another least film thickness, m."""
+        """The bearing with its shaft moved along its eccentricity, or down, to another least film thickness, m.
+
+        Where this way leads out of an arc that does not close, the shaft moves towards the middle of the first lobe,
+        or its pivot.
+        """
         x, y = self.eccentricity or (0.0, -1.0)
         size = math.hypot(x, y) or 1.0
         along = (0.0, -1.0) if x == y == 0 else (x / size, y / size)
 
         def excess(ratio: float) -> float:
-            moved = self.model_copy(update={"eccentricity": (ratio * along[0], ratio * along[1])})
-            return moved.least_film - film
+            return self._moved(ratio, along).least_film - film
 
         if excess(0.0) <= 0:
-            return self.model_copy(update={"eccentricity": (0.0, 0.0)})
-        ratio = scipy.optimize.brentq(excess, 0.0, 4.0, xtol=1e-15, rtol=1e-14)
+            return self._moved(0.0, along)
+        if excess(FARTHEST) > 0:
+            inside = self.first if self.pivot is None else float(self.pivots[0])
+            along = (math.cos(inside), math.sin(inside))
+        return self._moved(scipy.optimize.brentq(excess, 0.0, FARTHEST, xtol=1e-15, rtol=1e-14), along)
+
+    def _moved(self, ratio: float, along: tuple[float, float]) -> Self:
+        """The bearing with its shaft at an eccentricity over the clearance in a direction."""
         return self.model_copy(update={"eccentricity": (ratio * along[0], ratio * along[1])})
 
     def angle(self, x: Array) -> Array:

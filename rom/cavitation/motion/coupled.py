@@ -201,6 +201,16 @@ class Trial:
             given[row] = film.sides * float(self.linear.balance[film.covered[number]].sum()) - self._passed(number)[0]
         return given
 
+    @property
+    def overfull(self) -> bool:
+        """Whether a cavity surrounds a ring in steady flow, with pressure beside it.
+
+        What this drives into the cavity never leaves it: its matrix is singular, and its filling that of round-off.
+        """
+        surrounds = (self.kind == CAVITY).all(axis=0)
+        steady = self.network.periodic[0] and not self.network.storage.any()
+        return bool(steady and surrounds.any() and self.pressure.any())
+
     def unbalanced(self, *, round_off: bool) -> tuple[float, float]:
         """The largest balance over the largest flow through a face, and the sum of all over the flow through the film.
 
@@ -323,6 +333,10 @@ class UnresistedError(ConvergenceError):
     """A film does not resist the motion of its wall, as where it has no pressure."""
 
 
+class OverfullError(ConvergenceError):
+    """A cavity takes in more liquid than it gives off."""
+
+
 def full_film(film: MovingFilm, place: Array) -> Instant:
     """A full film at cavitation pressure and given coordinates, from which an iteration starts."""
     faces = film.faces(place)
@@ -400,6 +414,8 @@ def settled(
     ------
     ConvergenceError
         If the iteration does not converge, or a film takes in more than a restrictor passes at cavitation pressure.
+    OverfullError
+        If the steady film that it finds has a cavity around a ring that would fill.
     """
     trial = trial_at(film, start, drive)
     free, whole, line = np.flatnonzero(drive.free), True, film.grid.shape[1] == 1
@@ -422,6 +438,13 @@ def settled(
         if not np.isfinite(residual + force_residual):
             break
         if max(residual, imbalance) <= least and force_residual <= FORCE_TOLERANCE and whole:
+            if trial.overfull:
+                raise OverfullError(
+                    "cavitation: no steady film was found: a cavity surrounds the bearing, and the film beside it "
+                    "would fill it; take more cells, or change lubricant.cavitation_pressure",
+                    outcome=Outcome.STALLED,
+                    iterations=iteration,
+                )
             if not starved:
                 _check_restrictors(trial)
             return Instant(

@@ -164,3 +164,28 @@ def test_a_film_of_one_coordinate_that_does_not_settle_is_one_line(monkeypatch):
     film = free_film(scene, (16, 1), wall=wall_of(scene, None))
     with pytest.raises(ConvergenceError, match=r"^load: the motion towards the equilibrium does not settle"):
         equilibrium.equilibrium(film, None, tolerance=1e-9, load=np.array([-2e4]))
+
+
+@pytest.mark.parametrize(("lobes", "waves", "rest"), [(1, 0.03, {}), (5, 0.03, {"preload": 0.3, "offset": 0.6})])
+def test_a_cavity_around_a_bore_fills_and_its_film_is_that_of_nearly_smooth_walls(lobes, waves, rest):
+    """Its filling is not determined by the flow along it; liquid that the film drives into it stays there."""
+    small = {"shape": "lobes", "radius": "2 mm", "clearance": "1 um", "width": "60 mm", "eccentricity": [0.24, 0.0]}
+    ridges = {"kind": "sinusoid", "amplitude": f"{waves} um", "wavelength": "5 mm", "direction": "90 deg"}
+    tables = {"lubricant": {"viscosity": "0.2 Pa*s", "cavitation_pressure": "-20 kPa"}, "motion": {"speed": "-1 m/s"}}
+    geometry = small | {"lobes": lobes} | rest
+    rough = solved(geometry, cells=16, model="direct", load=None, roughness=ridges, **tables)
+    smooth = solved(geometry, cells=16, load=None, **tables)
+    for one in (rough, smooth):
+        assert 0 < one["theta_min"].value < 1
+        assert abs(one["side_leakage"].value) < 1e-6 * 1e-6 * 60e-3  # of h u B: nothing supplies the film
+    for name in ("load", "friction"):
+        assert rough[name].value == pytest.approx(smooth[name].value, rel=0.02)
+
+
+def test_a_pad_through_the_shaft_at_its_edge_is_no_equilibrium():
+    """The film of the node at the edge of a pad is the mean of those of the pad and of the gap beside it."""
+    pads = {"shape": "lobes", "radius": "1.73 mm", "clearance": "4.96 um", "lobes": 3, "preload": 0.171, "pivot": 0.5}
+    oil = {"viscosity": "0.176 Pa*s", "cavitation_pressure": "-50 kPa"}
+    tables = {"motion": {"speed": "0.316 m/s"}, "load": {"pressure": "1.3333 MPa", "angle": "50.3 deg"}}
+    with pytest.raises(ConvergenceError, match=r"^load: the walls touch between the nodes of the grid, where .* take"):
+        solved(pads | {"arc": "97.68 deg", "width": "1.0034 mm"}, cells=16, lubricant=oil, **tables)

@@ -76,6 +76,13 @@ def test_another_least_film_keeps_the_direction_of_the_shaft():
     assert y / x == pytest.approx(-2.0)
 
 
+@pytest.mark.parametrize("place", [{}, {"eccentricity": [-0.001, -0.003]}])
+def test_another_least_film_in_an_arc_that_the_shaft_would_leave_is_towards_the_arc(place):
+    above = bearing(arc="110 deg", first="50 deg", preload=0.5, **place).geometry.at_film(5e-6)
+    assert above.thinnest == pytest.approx(5e-6, rel=1e-9)
+    assert np.degrees(np.arctan2(*above.eccentricity[::-1])) == pytest.approx(50)
+
+
 @pytest.mark.parametrize(
     ("geometry", "message"),
     [

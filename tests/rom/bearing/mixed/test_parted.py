@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughfilm.contact.foundation.errors import InputError
+from roughfilm.contact.foundation.errors import ConvergenceError, InputError
 from roughfilm.ladder import find
 from roughfilm.rom.bearing.mixed.stribeck import stribeck
 from roughfilm.rom.ladder.request import Request
@@ -68,3 +68,10 @@ def test_a_speed_of_zero_and_a_load_that_no_speed_carries_are_refused():
 def test_speeds_too_low_for_the_load_are_left_out():
     (curve,) = stribeck(scene(WEDGE), [1e-3, 1.0], [1e6], resolution=32)
     assert [point.speed for point in curve.points] == [1.0]
+
+
+def test_a_curve_of_a_shaft_below_its_arc_is_refused_in_one_line():
+    arc = {"shape": "lobes", "radius": "13 mm", "clearance": "2 um", "arc": "110 deg", "first": "50 deg"}
+    below = scene(arc | {"preload": 0.5, "eccentricity": [-0.001, -0.003]}, "-1 m/s").model_copy(update={"load": None})
+    with pytest.raises((InputError, ConvergenceError), match=r"^load: "):
+        stribeck(below, [0.5, 1.0], [1e3], resolution=16)
