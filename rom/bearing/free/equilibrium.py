@@ -13,7 +13,7 @@ from roughfilm.rom.bearing.free.unbalanced import remedy, unbalanced
 from roughfilm.rom.bearing.geometry.journal import Shaft
 from roughfilm.rom.bearing.geometry.lobes import Lobes
 from roughfilm.rom.cavitation.interpolation import carried
-from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, OverfullError, kinds, settled
+from roughfilm.rom.cavitation.motion.coupled import Drive, Instant, kinds, settled
 from roughfilm.rom.cavitation.motion.past import held
 from roughfilm.rom.cavitation.problem import unchanging
 
@@ -179,8 +179,6 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
     try:
         instant = settled(solved, start, given, tolerance=tolerance, starved=moves)
     except ConvergenceError as error:  # in time the cavities fill
-        if moves and not isinstance(error, OverfullError):
-            raise
         instant, failed = start, error
     if not moves and failed is None:
         return instant
@@ -193,7 +191,7 @@ def _settling(film: FreeFilm, start: Instant, force: Array, tolerance: float, re
             except (ConvergenceError, FloatingPointError):
                 continue
             break
-        if following is None and failed is not None and not moves:
+        if following is None and failed is not None and (not moves or instant is start):
             raise failed
         move = np.inf if following is None else _move(film, instant, following)
         if following is None or (move > MAX_MOVE and step > SHORT_STEP * time):

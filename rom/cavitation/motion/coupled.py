@@ -333,10 +333,6 @@ class UnresistedError(ConvergenceError):
     """A film does not resist the motion of its wall, as where it has no pressure."""
 
 
-class OverfullError(ConvergenceError):
-    """A cavity takes in more liquid than it gives off."""
-
-
 def full_film(film: MovingFilm, place: Array) -> Instant:
     """A full film at cavitation pressure and given coordinates, from which an iteration starts."""
     faces = film.faces(place)
@@ -413,9 +409,8 @@ def settled(
     Raises
     ------
     ConvergenceError
-        If the iteration does not converge, or a film takes in more than a restrictor passes at cavitation pressure.
-    OverfullError
-        If the steady film that it finds has a cavity around a ring that would fill.
+        If the iteration does not converge, a film takes in more than a restrictor passes at cavitation pressure, or a
+        steady film has a cavity around a ring that would fill.
     """
     trial = trial_at(film, start, drive)
     free, whole, line = np.flatnonzero(drive.free), True, film.grid.shape[1] == 1
@@ -439,7 +434,7 @@ def settled(
             break
         if max(residual, imbalance) <= least and force_residual <= FORCE_TOLERANCE and whole:
             if trial.overfull:
-                raise OverfullError(
+                raise ConvergenceError(
                     "cavitation: no steady film was found: a cavity surrounds the bearing, and the film beside it "
                     "would fill it; take more cells, or change lubricant.cavitation_pressure",
                     outcome=Outcome.STALLED,

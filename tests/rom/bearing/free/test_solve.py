@@ -166,18 +166,17 @@ def test_a_film_of_one_coordinate_that_does_not_settle_is_one_line(monkeypatch):
         equilibrium.equilibrium(film, None, tolerance=1e-9, load=np.array([-2e4]))
 
 
-@pytest.mark.parametrize(("lobes", "waves", "rest"), [(1, 0.03, {}), (5, 0.03, {"preload": 0.3, "offset": 0.6})])
-def test_a_cavity_around_a_bore_fills_and_its_film_is_that_of_nearly_smooth_walls(lobes, waves, rest):
+@pytest.mark.parametrize("bore", [{"lobes": 1}, {"lobes": 5, "preload": 0.3, "offset": 0.6}])
+def test_a_cavity_around_a_bore_fills_and_its_film_is_that_of_nearly_smooth_walls(bore):
     """Its filling is not determined by the flow along it; liquid that the film drives into it stays there."""
     small = {"shape": "lobes", "radius": "2 mm", "clearance": "1 um", "width": "60 mm", "eccentricity": [0.24, 0.0]}
-    ridges = {"kind": "sinusoid", "amplitude": f"{waves} um", "wavelength": "5 mm", "direction": "90 deg"}
+    ridges = {"kind": "sinusoid", "amplitude": "0.03 um", "wavelength": "5 mm", "direction": "90 deg"}
     tables = {"lubricant": {"viscosity": "0.2 Pa*s", "cavitation_pressure": "-20 kPa"}, "motion": {"speed": "-1 m/s"}}
-    geometry = small | {"lobes": lobes} | rest
-    rough = solved(geometry, cells=16, model="direct", load=None, roughness=ridges, **tables)
-    smooth = solved(geometry, cells=16, load=None, **tables)
+    rough = solved(small | bore, cells=16, model="direct", load=None, roughness=ridges, **tables)
+    smooth = solved(small | bore, cells=16, load=None, **tables)
     for one in (rough, smooth):
         assert 0 < one["theta_min"].value < 1
-        assert abs(one["side_leakage"].value) < 1e-6 * 1e-6 * 60e-3  # of h u B: nothing supplies the film
+        assert abs(one["side_leakage"].value) < 1e-7 * 1e-6 * 60e-3  # of h u B: nothing supplies the film
     for name in ("load", "friction"):
         assert rough[name].value == pytest.approx(smooth[name].value, rel=0.02)
 
