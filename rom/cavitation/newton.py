@@ -14,6 +14,7 @@ from roughfilm.rom.cavitation.balance import CAVITY, FILM, FIXED, FLOODED, advan
 from roughfilm.rom.cavitation.fluid import Fluid
 from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.relaxation import relaxed
+from roughfilm.rom.parts.allowance import spend
 
 FIRST_ROUND_STEPS = 25
 """Largest number of Newton steps in the first round; from a good start 1 to 6 suffice. It doubles every round."""
@@ -136,6 +137,7 @@ def settle(
     state, rounds, iterations, diverged = start, _rounds.get() if ruptures else 1, 0, 0
     failed = ConvergenceError("")
     for number in range(rounds):
+        spend(state.fill.size)
         before = state
         if ruptures:
             state = relaxed(network, fluid, state, sweeps * SWEEPS_RATIO**number)
@@ -208,6 +210,7 @@ def newton(
         else:
             reduction = min(STEP_REDUCTION, 0.1 * (residual / before) ** 2) if iteration else STEP_REDUCTION
         accuracy = max(0.1 * tolerance * largest, reduction * float(np.sqrt((balance * balance).sum())))
+        spend(kind.size)
         change = step(network, Linear(kind, mobility[0], *parts), accuracy)
         if ruptures:
             changed = advance(kind.reshape(-1), pressure.reshape(-1), fill.reshape(-1), change.reshape(-1))

@@ -20,9 +20,17 @@ from roughfilm.rom.ladder.kind import Omission, kind_of, kind_of_scene
 from roughfilm.rom.ladder.model import Effect, Model, ladder
 from roughfilm.rom.ladder.request import Request
 from roughfilm.rom.ladder.result import Result
+from roughfilm.rom.parts.allowance import allowance
 
 CELLS = {True: (128, 512), False: (32, 64)}
 """Number of cells along a side, for an infinitely wide film (True) and for others; the second if a model fails."""
+
+WORK = 4e5
+"""Steps of Newton's method times nodes after which a film is given up, and its change is unknown.
+
+Films that are found take up to 2.2e5. Films of which temperatures run away, or tilt a pad beyond its balance, may take
+20 times as much, hundreds of times the work of the isothermal film.
+"""
 
 MARGIN = 1.1
 """Change on fine grids over that on the coarse one that 95 of 100 random scenes do not exceed."""
@@ -50,7 +58,7 @@ class CoarseFilms:
     ----------
     models : the models, from that with none of these effects to those with most of them.
     results : results by the name of the model.
-    failures : messages of models without a result, by name.
+    failures : messages of models that have no result, by name; those that ``WORK`` ends have neither.
     smooth : whether the rough wall of the scene was replaced by a smooth one.
     conducts_as_oil : whether the lubricant has ``OIL_CONDUCTIVITY``, as none is given.
     absent : effects that the scene does not have.
@@ -181,13 +189,12 @@ def _films(question: KeyedScene) -> CoarseFilms | None:
         return None
     models = (plain[-1], *sorted(changed, key=lambda model: len((model.keeps & EFFECTS.keys()) - absent)))
     for cells in CELLS[scene.wide]:
-        results, failures = _solved(scene, models, cells)
-        if not failures:
+        results, failures, given_up = _solved(scene, models, cells)
+        if given_up or not failures:
             break
     in_still_air = None
     if (cooled := _giving_off(scene, results.values())) is not None:
-        others, _failures = _solved(cooled, models[-1:], cells)
-        in_still_air = others.get(models[-1].name)
+        in_still_air = _solved(cooled, models[-1:], cells)[0].get(models[-1].name)
     return CoarseFilms(
         models=models,
         results=results,
@@ -199,19 +206,24 @@ def _films(question: KeyedScene) -> CoarseFilms | None:
     )
 
 
-def _solved(scene: Bearing, models: Sequence[Model[Bearing]], cells: int) -> tuple[dict[str, Result], dict[str, str]]:
-    """The results of models on a grid, and the messages of those that fail, by name."""
+def _solved(
+    scene: Bearing, models: Sequence[Model[Bearing]], cells: int
+) -> tuple[dict[str, Result], dict[str, str], bool]:
+    """The results of models on a grid, messages of those that fail, by name, and whether ``WORK`` ended one of them."""
     results: dict[str, Result] = {}
     failures: dict[str, str] = {}
+    given_up = False
     for model in models:
-        try:
-            with few_rounds():
+        with few_rounds(), allowance(WORK) as work:
+            try:
                 results[model.name] = model.solve(scene, Request(resolution=cells))
-        except (InputError, ConvergenceError) as error:
-            failures[model.name] = str(error)
-            if model is models[0]:  # nothing to compare the others with
-                break
-    return results, failures
+            except (InputError, ConvergenceError) as error:
+                given_up = given_up or work.spent
+                if not work.spent:
+                    failures[model.name] = str(error)
+                if model is models[0]:  # nothing to compare the others with
+                    break
+    return results, failures, given_up
 
 
 def _heat_given_off(scene: Bearing, found: Result) -> float | None:

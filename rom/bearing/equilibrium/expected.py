@@ -13,6 +13,7 @@ from roughfilm.rom.bearing.geometry.journal import Journal, Shaft
 from roughfilm.rom.bearing.geometry.rigid import MovingWall
 from roughfilm.rom.bearing.keyed import KeyedScene, keyed
 from roughfilm.rom.bearing.scene import Bearing
+from roughfilm.rom.parts.allowance import allowance
 
 REFERENCE = 1e-4
 """Film thickness at which the shape of a wall is sampled, over the largest film thickness of the geometry."""
@@ -100,9 +101,10 @@ def _expected(question: KeyedScene) -> ExpectedFilm | InputError | ConvergenceEr
     """The expected film, or the error of its search, which is as dear."""
     scene = question.scene
     try:
-        if not isinstance(scene.geometry, MovingWall):
-            return ExpectedFilm(*_estimate(scene))
-        place = _expected_place(scene)
+        with allowance(math.inf):  # what is kept does not depend on who asks first
+            if not isinstance(scene.geometry, MovingWall):
+                return ExpectedFilm(*_estimate(scene))
+            place = _expected_place(scene)
     except (InputError, ConvergenceError) as error:
         return error
     steepness = STEEPNESS_OF_SHAFT if isinstance(scene.geometry, Shaft) else STEEPNESS_OF_PAD

@@ -17,6 +17,7 @@ from roughfilm.rom.cavitation.network import Network, State
 from roughfilm.rom.cavitation.newton import BALANCE_ROUNDOFF, Linear
 from roughfilm.rom.cavitation.relaxation import relaxed
 from roughfilm.rom.cavitation.restricted import first_pressures
+from roughfilm.rom.parts.allowance import spend
 
 DIFFERENCE = 1e-6
 """Change of the film thickness over the least distance from the smallest one, for derivatives by the coordinates."""
@@ -454,6 +455,7 @@ def settled(
                 force_residual=force_residual,
                 iterations=iteration,
             )
+        spend(trial.kind.size)
         change, pressures, places = trial.step()
         moved = np.zeros(trial.place.size)
         moved[free] = places

@@ -209,3 +209,13 @@ def test_where_the_film_without_an_effect_fails_no_other_is_solved(monkeypatch):
     monkeypatch.setattr("roughfilm.rom.bearing.effects.viscosity.ladder", lambda *_, **__: ladder)
     assert viscosity_omitted(wedge(2.7), ISOTHERMAL, "load_per_width") is None
     assert set(solved) == {"reynolds_cavitating"}
+
+
+def test_a_film_that_takes_too_much_work_leaves_the_part_unknown(monkeypatch):
+    monkeypatch.setattr("roughfilm.rom.bearing.effects.viscosity.WORK", 6 * 129)
+    scene = wedge(speed=1.9)
+    films = coarse_films(scene)
+    assert ISOTHERMAL.name in films.results
+    assert not films.failures
+    assert BALANCE.name not in films.results
+    assert viscosity_omitted(scene, ISOTHERMAL, "load_per_width") is None
