@@ -13,6 +13,7 @@ import secrets
 import shutil
 import signal
 import tempfile
+import threading
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -109,12 +110,25 @@ def _made(parent: Path, before: str) -> Iterator[Path]:
 
 @contextmanager
 def _stops_held() -> Iterator[None]:
-    """Hold signals to stop, whose exceptions would part a lock file from its directory, until the end of the block."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, STOPS)
+    """Hold signals to stop, whose exceptions would part a lock file from its directory, until the end of the block.
+
+    Handlers are replaced: a mask of this thread would leave the signal to another one, and the exception still comes
+    here. Other threads than the main one get no such exceptions.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    came: list[int] = []
+    before = {number: handler for number in STOPS if (handler := signal.getsignal(number)) is not None}
     try:
+        for number in before:
+            signal.signal(number, lambda got, _: came.append(got))
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        if came:
+            signal.raise_signal(came[0])
 
 
 def sweep(directory: Path) -> None:

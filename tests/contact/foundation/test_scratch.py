@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 
 import pytest
 
@@ -58,9 +59,18 @@ def test_a_signal_to_stop_that_comes_while_it_is_made_or_removed_leaves_nothing(
         return own(*arguments, **options)
 
     monkeypatch.setattr(module, call, stopped)
-    with pytest.raises(KeyboardInterrupt), scratch_directory():
-        pass
+    handlers = [signal.getsignal(number) for number in scratch.STOPS]
+    end = threading.Event()
+    other = threading.Thread(target=end.wait)  # the system may deliver the signal to any thread
+    other.start()
+    try:
+        with pytest.raises(KeyboardInterrupt), scratch_directory():
+            pass
+    finally:
+        end.set()
+        other.join()
     assert list(temporary.iterdir()) == []
+    assert [signal.getsignal(number) for number in scratch.STOPS] == handlers
 
 
 def test_it_is_empty_and_removed_at_the_end_whatever_happens(temporary):
