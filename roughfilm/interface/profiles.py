@@ -53,10 +53,12 @@ def read_profile(
 
     Examples
     --------
+    >>> import tempfile
     >>> import numpy as np
     >>> import roughfilm as rf
-    >>> np.save("line.npy", 1e-6 * np.sin(np.arange(500) / 10))
-    >>> profile = rf.read_profile("line.npy", spacing=1e-6)
+    >>> with tempfile.TemporaryDirectory() as directory:
+    ...     np.save(f"{directory}/line.npy", 1e-6 * np.sin(np.arange(500) / 10))
+    ...     profile = rf.read_profile(f"{directory}/line.npy", spacing=1e-6)
     >>> round(1e6 * rf.profile_parameters(profile.heights, spacing=profile.spacing)["Rq"].value, 2)
     0.71
     """
