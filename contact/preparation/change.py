@@ -13,7 +13,7 @@ SMOOTHED = 0.1
 
 
 @dataclass(frozen=True, kw_only=True)
-class Change:
+class PreparationChange:
     """The change from the measured points to the cell.
 
     Attributes
@@ -31,7 +31,7 @@ class Change:
     waves: float
 
 
-def change(measured: Surface, cell: Surface, *, kept: float, form: Form) -> Change:
+def change(measured: Surface, cell: Surface, *, kept: float, form: Form) -> PreparationChange:
     """The change by a preparation.
 
     Parameters
@@ -48,7 +48,7 @@ def change(measured: Surface, cell: Surface, *, kept: float, form: Form) -> Chan
     order = ORDERS.get(form, 0)
     terms = max((order + 1) * (order + 2) // 2 - 3, 0)
     by_form = 0.0 if terms == 0 else min(terms / waves, 1.0) if waves > 0 else 1.0
-    return Change(
+    return PreparationChange(
         slope=_fall(before, after),
         height=_fall(rms, least),
         lost=1 - min(kept, 1.0) * (1 - by_form),

@@ -9,7 +9,7 @@ import numpy as np
 
 from roughfilm.contact.foundation.arrays import Mask
 from roughfilm.contact.foundation.errors import InputError
-from roughfilm.contact.preparation.change import Change, change, smoothing_warnings
+from roughfilm.contact.preparation.change import PreparationChange, change, smoothing_warnings
 from roughfilm.contact.preparation.edges.join import join_edges
 from roughfilm.contact.preparation.edges.joined import Joined, seam_pixels
 from roughfilm.contact.preparation.filling import fill_invalid
@@ -214,7 +214,7 @@ def cell_of(levelled: Levelled, recipe: Recipe, window: Window | None = None) ->
 
 def _change(
     levelled: Levelled, recipe: Recipe, asked: Window, window: Window, joint: Joined, smoothed: Surface
-) -> Change:
+) -> PreparationChange:
     """The change of the window that was asked for to the cell, which may cover a smaller one."""
     guessed = levelled.trusted.invalid
     kept = float((~guessed[window.slices]).sum()) / math.prod(asked.shape)

@@ -13,11 +13,12 @@ SOURCE = "estimated from the preparation of the surface"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Law:
+class PreparationError:
     """The error of a quantity, over its value for the complete surface: a s + b t √p + c √(f/n) + d √(f/n) p^(-1/4).
 
     s and t are the falls of slope and height, f the fraction that is lost and n the number of waves of
-    :class:`roughfilm.contact.preparation.change.Change`, p the load over E* g'. The number of contacts grows as n √p.
+    :class:`roughfilm.contact.preparation.change.PreparationChange`, p the load over E* g'. The number of contacts grows
+    as n √p.
     """
 
     title: str
@@ -34,13 +35,13 @@ class Law:
 
 
 LAWS = {
-    "area_fraction": Law(title="contact area", slope=1.4, contacts=0.34),
-    "mean_gap": Law(title="mean gap", slope=0.9, height=2.0, waves=1.07),
-    "mean_contact_pressure": Law(title="mean contact pressure", slope=1.0, contacts=0.22),
-    "approach": Law(title="approach", slope=1.4, waves=0.97),
-    "pressure_max": Law(title="peak pressure", slope=1.65, contacts=0.18),
-    "leakage_per_width": Law(title="leakage", slope=2.1, height=43.0, waves=5.5),
-    "permeability": Law(title="permeability", slope=2.1, height=43.0, waves=5.5),
+    "area_fraction": PreparationError(title="contact area", slope=1.4, contacts=0.34),
+    "mean_gap": PreparationError(title="mean gap", slope=0.9, height=2.0, waves=1.07),
+    "mean_contact_pressure": PreparationError(title="mean contact pressure", slope=1.0, contacts=0.22),
+    "approach": PreparationError(title="approach", slope=1.4, waves=0.97),
+    "pressure_max": PreparationError(title="peak pressure", slope=1.65, contacts=0.18),
+    "leakage_per_width": PreparationError(title="leakage", slope=2.1, height=43.0, waves=5.5),
+    "permeability": PreparationError(title="permeability", slope=2.1, height=43.0, waves=5.5),
 }
 """The laws of the quantities, for 95 of 100 contacts.
 
