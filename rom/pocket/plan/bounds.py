@@ -95,8 +95,21 @@ def of_slope(
 ) -> dict[str, float]:
     """The bounds of the errors of a film by its correction for slope, as details of its result.
 
-    A film that keeps the correction is off by a part of it, and one that leaves it out by all of it besides. The
-    ``largest`` pressure is p+. Errors of the model and of its grid are independent.
+    With the change C of a quantity by the correction, the size S of the change of the pressure (mean for loads,
+    greatest for extreme pressures) or of the shear stress (for friction), s = ``scene.slope``, and the numbers a, b,
+    c, d of ``REMAINDERS`` in their order, the bound is
+
+        √(E² + u²),    E = a C + √s S [b/(1 + Re h/w) + c max|Δp|/p_max + d],
+
+    and E is C larger for a film that leaves the correction out. Errors of the model and of its grid are independent.
+    The form follows from the orders of the errors in slope; the numbers are fitted to plane flow (see the module).
+
+    Parameters
+    ----------
+    made : the correction for slope, as p+.
+    uncertainties : u, the uncertainty of each quantity by the grid, as p+.
+    largest : p_max, the largest pressure, as p+.
+    kept : whether the film keeps the correction.
     """
     found, ratio = {}, made.greatest / largest if largest > 0 else 0.0
     for name, change in made.change.items():
@@ -118,8 +131,19 @@ def of_inertia(
 ) -> dict[str, float]:
     """The bounds of the errors of a film with inertia to first order, as details of its result.
 
-    Higher orders of inertia are a part of the first one times its change of pressure, ``relative`` to the pressure
-    without inertia. Slope changes pressures by a part of the ``largest`` one, as p+.
+    Higher orders of inertia are ``INERTIA_LEFT`` times the size S of the change of the pressure by the first one times
+    r, that change over the pressure without inertia. Slope changes a quantity by E. With s = ``scene.slope``, the mean
+    width w of the dimples, and the numbers a, b, c of ``SLOPE_OF_LOAD`` and the two after it, the bound is
+
+        √((0.2 r S + E)² + u²),    E = a s^0.7 (h/w) |load| + b s^0.7 (h/L) p_max of a load,
+                                   E = c s^0.7 (h/w) p_max of an extreme pressure.
+
+    Parameters
+    ----------
+    made : the correction for inertia, as p+.
+    quantities : the quantities of the film with their uncertainties u by the grid, as p+.
+    largest : p_max, the largest pressure, as p+.
+    relative : r.
     """
     thin = scene.slope**0.7 * scene.geometry.film / scene.geometry.length
     narrow = thin / math.sqrt(scene.covered)
